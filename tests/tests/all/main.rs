@@ -30,6 +30,7 @@ mod real_cl;
 mod reference;
 mod robust;
 mod threads;
+mod threads_osp;
 mod threads_settings;
 mod tilted_frames;
 mod tip_control;

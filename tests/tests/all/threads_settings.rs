@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::threads::{nc_of, said_against, seeds};
 
 /// The posts and settings on top of them.
-const MACHINES: [(&str, &[&str]); 12] = [
+const MACHINES: [(&str, &[&str]); 13] = [
     ("fanuc-lathe", &[]),
     ("fanuc-lathe", &["thread.least_depth=0.113", "thread.springs=0"]),
     ("fanuc-lathe", &["thread.cycle=1", "thread.cycle_code=92", "thread.least_depth=0.3"]),
@@ -16,6 +16,7 @@ const MACHINES: [(&str, &[&str]); 12] = [
     ("fanuc-lathe", &["thread.chamfer=0.1", "lathe.diameter=0"]),
     ("haas-lathe", &[]),
     ("okuma-lathe", &[]),
+    ("okuma-lathe", &["thread.cycle=6", "thread.springs=0"]),
     ("linuxcnc-lathe", &[]),
     ("linuxcnc-lathe", &["thread.least_depth=0", "lathe.diameter=0", "lathe.diameter_code=none"]),
     ("sinumerik-lathe", &[]),

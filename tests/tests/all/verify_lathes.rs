@@ -213,7 +213,6 @@ fn each_is_found(check: &dyn Fn(&str) -> String, nc: &str, changes: &[(&str, &st
     }
 }
 
-/// On a SINUMERIK the lead is the word of the axis that goes the longer way, on a taper of 45 degrees
 /// The plane says along which axes a SINUMERIK lathe counts the lengths of a tool.
 #[test]
 fn a_lathe_that_turns_in_another_plane_is_found() {

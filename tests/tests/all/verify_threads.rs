@@ -74,6 +74,7 @@ fn a_way_out_that_no_code_says_is_found() {
     assert_eq!(found("haas-lathe", &leaving, cl, &twice), "");
 }
 
+/// On a SINUMERIK the lead is the word of the axis that goes the longer way, on a taper of 45 degrees
 /// that of either.
 #[test]
 fn the_letter_of_a_lead_on_a_taper() {
@@ -109,7 +110,7 @@ fn a_number_of_threads_divides_the_lead() {
     let cl = "LOADTL / 1; SPINDL / RPM, 500, CLW; RAPID; GOTO / 25, 0, 2; \
               THREAD / AUTO, 20, 0, 2, TO, 20, 0, -16, TPI, 36, DEEP, 0.4, LAST, 0, TYPE, 0, 0.5, 0, \
               FEDTO, 2, OUT";
-    let nc = "G95 G18; T010101; G97 S500 M3; G0 X50. Z2.; X44.; G33 X39.2 Z-16. F6.35 J9; \
+    let nc = "G95 G18; T010101; G97 S500 M3; G0 X50. Z2.; X44.; M22; G33 X39.2 Z-16. F6.35 J9; \
               G33 X39. Z-16. F6.35 J9; M2";
     let check = |nc: &str| found("okuma-lathe", &[], cl, nc);
     assert_eq!(check(nc), "");

@@ -54,6 +54,8 @@ pub enum Function {
     ThreadPasses,
     /// That of LinuxCNC, with its pitch in P.
     ThreadPassesByPitch,
+    /// That of an OSP, with its height in H.
+    ThreadPassesByHeight,
     /// Drilling cycle.
     Cycle(CycleKind),
     /// Drilling cycle of a lathe for live tools.
@@ -190,6 +192,7 @@ impl Function {
             Function::Diameter => Group::Diameter,
             Function::ThreadPasses
             | Function::ThreadPassesByPitch
+            | Function::ThreadPassesByHeight
             | Function::SpeedLimit
             | Function::Dwell
             | Function::MachineFrame

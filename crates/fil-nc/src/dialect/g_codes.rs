@@ -160,6 +160,10 @@ impl Functions {
         let code = settings.code("thread.cycle_code");
         match settings.code("thread.cycle") {
             Some(4) => self.add(code, Function::ThreadPassesByPitch),
+            Some(6) => {
+                self.add(code, Function::ThreadPass);
+                self.add(Some(71), Function::ThreadPassesByHeight);
+            }
             Some(1) if code.is_some_and(|code| code != 92) => {
                 self.add(code, Function::ThreadPass);
             }

@@ -136,6 +136,11 @@ impl State<'_> {
                 self.motion = None;
                 return self.thread_by_pitch(words);
             }
+            Some(Function::ThreadPassesByHeight) => {
+                words.function(Group::Once);
+                self.motion = None;
+                return self.thread_by_height(words);
+            }
             _ => {}
         }
         match self.take_motion(words)? {

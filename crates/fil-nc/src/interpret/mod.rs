@@ -15,6 +15,7 @@ mod live;
 mod live_cycle;
 mod modes;
 mod order;
+mod osp_thread;
 mod program;
 mod sinumerik;
 mod state;

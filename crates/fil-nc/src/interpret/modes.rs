@@ -1,8 +1,8 @@
 //! Modal functions, tool, spindle and coolant.
 
-use super::Fault;
 use super::state::State;
 use super::words::{Words, letter};
+use super::{Fault, osp_thread};
 use crate::dialect::{Auxiliary, Family, Function, Group, ToolCall};
 use crate::errors::NcCode;
 use crate::motion::{Compensation, Event, FOOT, Modes, Speed, Spindle, StartMode, WORD_OFFSETS};
@@ -131,8 +131,11 @@ impl State<'_> {
                 self.end_tip_control();
             }
             // A tool change may end the function: then H alone is not certain to act.
-            // In a threading cycle H counts passes.
-            None if words.peek(Group::Once) == Some(Function::ThreadPassesByPitch) => {}
+            // In a threading cycle H counts passes, or is the height.
+            None if matches!(
+                words.peek(Group::Once),
+                Some(Function::ThreadPassesByPitch | Function::ThreadPassesByHeight)
+            ) => {}
             None if self.modes.length_offset.is_some() && words.has(H) => {
                 let offset = words.take_whole(H)?;
                 self.modes.length_offset = offset.filter(|_| self.length_is_on);
@@ -268,10 +271,13 @@ impl State<'_> {
         Ok(())
     }
 
-    /// Tells the auxiliary functions other than those of spindle, coolant and tool.
+    /// Tells the auxiliary functions other than those of spindle, coolant and tool, and of a thread.
     pub(super) fn auxiliaries(&mut self, words: &Words) {
         for (auxiliary, _) in &words.auxiliaries {
             if let Auxiliary::Other(code) = auxiliary {
+                if osp_thread::takes(words, *code) {
+                    continue;
+                }
                 self.switch_way_out(*code);
                 self.tell_auxiliary(*code);
             }

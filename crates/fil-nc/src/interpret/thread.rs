@@ -137,7 +137,7 @@ impl State<'_> {
 
     /// The lead of the cycle of one pass: F by the number of threads in it, where the machine has a
     /// word for that, and whether the block has it.
-    fn lead_of_pass(
+    pub(super) fn lead_of_pass(
         &mut self,
         words: &mut Words,
         before: Option<Pass>,
@@ -156,7 +156,7 @@ impl State<'_> {
 
     /// The way on which a cycle leaves a thread, in leads, where M codes switch it: that of the
     /// cycle's own word, else that of the control's parameter.
-    fn way_out(&self, said: Option<f64>) -> Result<f64, Fault> {
+    pub(super) fn way_out(&self, said: Option<f64>) -> Result<f64, Fault> {
         let Some(way_out) = self.dialect.way_out else { return Ok(said.unwrap_or(0.0)) };
         let refuse = |why: &str| Err(Fault::new(NcCode::NoMeaning, why));
         match (self.leaves_threads, said.or(way_out.leads)) {
@@ -179,7 +179,11 @@ impl State<'_> {
     }
 
     /// The end of a thread; what a block does not say is as it was.
-    fn thread_end(&self, axes: &[AxisWord], before: Option<Pass>) -> Result<(f64, f64), Fault> {
+    pub(super) fn thread_end(
+        &self,
+        axes: &[AxisWord],
+        before: Option<Pass>,
+    ) -> Result<(f64, f64), Fault> {
         let (to, _) = self.target(axes);
         let end = |axis: usize, before: Option<f64>| {
             let said = axes.iter().any(|word| word.axis == axis).then_some(to[axis]);
@@ -347,6 +351,19 @@ impl State<'_> {
         self.step(&[(X, drive), (Z, z)], Course::Rapid, None);
         self.pass = None;
         Ok(())
+    }
+
+    /// Passes straight in to a height, the first one so deep, with none at the root behind them.
+    pub(super) fn thread_by_roots(
+        &mut self,
+        (x, z): (f64, f64),
+        [height, first]: [f64; 2],
+        lead: f64,
+    ) -> Result<(), Fault> {
+        let setup = Setup { finishing: 0, chamfer: 0.0, angle: 0.0, least: 0.0, allowance: 0.0 };
+        let last = Pass { x, z, taper: 0.0, lead, leaves: 0.0 };
+        let thread = thread(last, Some(height), Some(first), setup)?;
+        self.passes(&thread)
     }
 
     /// Passes of falling depth, so that each takes the same chip, then those at the

@@ -2,7 +2,7 @@
 //! and for texts of others the usual ones (ISO 6983, RS-274).
 
 use fil_machine::locations::{
-    self as loc, ControlFamily, MillTurnMode, RotaryTipOutput, ToolFormat,
+    self as loc, ControlFamily, MillTurnMode, RotaryTipOutput, ThreadCycle, ToolFormat,
 };
 use fil_machine::mill_turn;
 use fil_machine::modes::{FeedMode, Plane, Unit};
@@ -15,6 +15,9 @@ use super::{Compensation, Distance, Rotation};
 /// G34 and G35 of a SINUMERIK: threading moves whose lead grows, and shrinks.
 pub const VARYING_LEADS_OF_SINUMERIK: [FunctionCode; 2] =
     [FunctionCode::whole(34), FunctionCode::whole(35)];
+
+/// G71 of an OSP: a whole thread.
+pub const THREAD_OF_OSP: FunctionCode = FunctionCode::whole(71);
 
 /// What a preparatory function does to the state of the control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -150,6 +153,9 @@ impl Codes {
         let codes_are_calls = codes.sinumerik;
         if codes_are_calls {
             codes.named.extend(VARYING_LEADS_OF_SINUMERIK.map(|code| (code, Meaning::Motion)));
+        }
+        if commons.read(loc::THREAD_CYCLE) == ThreadCycle::G71OfAnOsp {
+            codes.named.push((THREAD_OF_OSP, Meaning::Turning));
         }
         let mut name = |at: CodeAt, meaning: Meaning| {
             let code = commons.read(at).and_then(FunctionCode::of_setting);

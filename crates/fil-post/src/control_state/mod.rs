@@ -16,7 +16,7 @@ mod skip;
 pub(crate) mod text;
 
 pub use auxiliaries::CALLS;
-pub use codes::{Codes, Meaning, VARYING_LEADS_OF_SINUMERIK};
+pub use codes::{Codes, Meaning, THREAD_OF_OSP, VARYING_LEADS_OF_SINUMERIK};
 pub use text::{TextFrame, TextWords, read as text_words};
 
 use fil_machine::locations as loc;

@@ -13,6 +13,7 @@ use nalgebra::Point3;
 pub use super::thread_shape::{Shape, least_depth};
 use super::{carry_out as carry, rotary, scaled_lead};
 use crate::control::family;
+use crate::control::word_address::osp_thread;
 use crate::control::word_address::spindle::{self, counted};
 use crate::control_state::Place;
 use crate::errors::PostCode;
@@ -401,12 +402,22 @@ fn to(post: &mut Post, target: Target, kind: MotionKind) -> Result<()> {
     carry(post, Operation::Linear(target, kind))
 }
 
-/// True when the machine's cycle can say all of the thread; else it is written as single
-/// passes.
+/// The machine's cycle, where it can say all of the thread; else it is written as single passes, which
+/// are a cycle on an OSP.
 pub fn cycle_of(post: &Post, thread: &Thread, shape: &Shape) -> ThreadCycle {
     let cycle = post.control.commons.read(loc::THREAD_CYCLE);
+    let cycles = match cycle {
+        ThreadCycle::G71OfAnOsp => [cycle, ThreadCycle::CycleOfOnePass],
+        _ => [cycle, ThreadCycle::SinglePasses],
+    };
+    let says = |cycle: &ThreadCycle| says_thread(post, thread, shape, *cycle);
+    cycles.into_iter().find(says).unwrap_or(ThreadCycle::SinglePasses)
+}
+
+/// A cycle can say all of the thread.
+fn says_thread(post: &Post, thread: &Thread, shape: &Shape, cycle: ThreadCycle) -> bool {
     let straight = thread.angle == 0.0;
-    let fits = match cycle {
+    match cycle {
         ThreadCycle::SinglePasses => true,
         _ if !says_way_out(post, thread, shape, cycle) => false,
         _ if shape.is_on_face() => false,
@@ -430,8 +441,8 @@ pub fn cycle_of(post: &Post, thread: &Thread, shape: &Shape) -> ThreadCycle {
                 && post.control.is_metric()
                 && shape.divides_evenly(thread)
         }
-    };
-    if fits { cycle } else { ThreadCycle::SinglePasses }
+        ThreadCycle::G71OfAnOsp => osp_thread::says(&post.control, thread, shape),
+    }
 }
 
 /// The cycle leaves the thread as asked: by the tenths of G76 in two blocks, by E and L of
@@ -454,7 +465,9 @@ fn says_way_out(post: &Post, thread: &Thread, shape: &Shape, cycle: ThreadCycle)
             let of_control = commons.int_opt(loc::THREAD_CHAMFER_TENTHS);
             is_switched && of_control.is_some() && of_control == tenths.map(u32::cast_signed)
         }
-        ThreadCycle::SinglePasses | ThreadCycle::Cycle97OfASinumerik => false,
+        ThreadCycle::SinglePasses | ThreadCycle::Cycle97OfASinumerik | ThreadCycle::G71OfAnOsp => {
+            false
+        }
     }
 }
 

@@ -183,6 +183,14 @@ impl Shape {
         cuts.all(|(number, depth)| (depth - root(number)).abs() < NOTHING)
     }
 
+    /// Pass i lies at the root of i times the depth of the first, the last one at the full depth.
+    pub fn goes_by_roots(&self, thread: &Thread) -> bool {
+        let cuts = self.cuts(thread);
+        let root = |number: usize| (cuts[0] * ((number + 1) as f64).sqrt()).min(thread.depth);
+        let lies = |(number, depth): (usize, &f64)| (depth - root(number)).abs() < NOTHING;
+        cuts.iter().enumerate().all(lies)
+    }
+
     /// The depths of the passes that go deeper.
     pub fn cuts(&self, thread: &Thread) -> &[f64] {
         let springs = (thread.springs as usize).min(self.depths.len());

@@ -11,6 +11,7 @@ pub mod frame;
 mod function;
 pub mod modes;
 pub mod motion;
+pub mod osp_thread;
 pub(crate) mod repeat;
 pub mod spindle;
 pub(super) mod stop;

@@ -18,7 +18,7 @@ use crate::errors::PostCode;
 use crate::operation::{Feed, Lead};
 pub use feed_words::{feed_mode, feed_words, leave_inverse_time};
 use leads::format_leads;
-pub use leads::{end_lead, lead_mode, lead_word, of_lead};
+pub use leads::{counted_threads, end_lead, lead_mode, lead_word, of_lead};
 
 /// A smaller motion along an axis whose words are off the tape is none, mm, inch or
 /// degrees.

@@ -8,10 +8,10 @@ use fil_machine::locations::{self as loc, ThreadCycle};
 use fil_machine::modes::{FeedMode, Plane};
 use fil_machine::number::NumberFormat;
 use fil_machine::rounding::Rounding;
-use fil_machine::{FunctionCode, Letter};
+use fil_machine::{FunctionCode, Letter, letters};
 
-use super::modes;
 use super::motion::{self, Motion};
+use super::{modes, osp_thread};
 use crate::control::{Control, program};
 use crate::errors::PostCode;
 use crate::operation::{Thread, ThreadPasses};
@@ -62,6 +62,7 @@ pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Res
         }
         ThreadCycle::CycleOfAllPassesInOneBlock => one_block(post, thread, &ends, code)?,
         ThreadCycle::CycleOfAllPassesOfLinuxcnc => linuxcnc(post, thread, leaves, (&ends, code))?,
+        ThreadCycle::G71OfAnOsp => osp_thread::write(&mut post.control, thread, shape, ends.root)?,
     }
     let [x, z] = ends.begin;
     match cycle {
@@ -251,21 +252,27 @@ fn steps(length: f64, unit: f64, exact: bool) -> Result<String> {
 }
 
 /// A block whose words follow each other in the order of the cycle.
-struct Line<'c> {
+pub(super) struct Line<'c> {
     control: &'c Control,
-    text: String,
+    pub(super) text: String,
 }
 
 impl<'c> Line<'c> {
-    fn new(control: &'c Control, code: FunctionCode) -> Result<Self> {
+    pub(super) fn new(control: &'c Control, code: FunctionCode) -> Result<Self> {
         let mut line = Line { control, text: String::new() };
-        let g = fil_machine::letters::G;
-        let Some(position) = control.tables.addresses.position(g) else {
-            return PostCode::NoCode.err("G is off the tape");
-        };
-        let slot = control.tables.addresses.slot(position);
-        line.put(slot.character, |out| code.write(&slot.format, out));
+        line.function(letters::G, code)?;
         Ok(line)
+    }
+
+    /// A function, preparatory or auxiliary.
+    pub(super) fn function(&mut self, letter: Letter, code: FunctionCode) -> Result<()> {
+        let addresses = &self.control.tables.addresses;
+        let Some(position) = addresses.position(letter) else {
+            return PostCode::NoCode.err(format!("{letter} is off the tape"));
+        };
+        let slot = addresses.slot(position);
+        self.put(slot.character, |out| code.write(&slot.format, out));
+        Ok(())
     }
 
     fn put(&mut self, character: u8, write: impl FnOnce(&mut Vec<u8>)) {
@@ -288,7 +295,7 @@ impl<'c> Line<'c> {
     }
 
     /// A value in the format of its letter.
-    fn word(&mut self, letter: char, value: f64, rounding: Rounding) -> Result<()> {
+    pub(super) fn word(&mut self, letter: char, value: f64, rounding: Rounding) -> Result<()> {
         let letter = Letter::of(letter as u8);
         self.control.require_letter(letter)?;
         let format = self.control.tables.addresses.format(letter).copied();
@@ -296,7 +303,7 @@ impl<'c> Line<'c> {
     }
 
     /// A lead, in the format of leads.
-    fn lead(&mut self, letter: char, value: f64) -> Result<()> {
+    pub(super) fn lead(&mut self, letter: char, value: f64) -> Result<()> {
         let letter = Letter::of(letter as u8);
         self.control.require_letter(letter)?;
         let format = self.control.tables.lead_format(letter);
@@ -322,7 +329,7 @@ impl<'c> Line<'c> {
     }
 
     /// An axis word.
-    fn axis(&mut self, number: usize, position: f64) -> Result<()> {
+    pub(super) fn axis(&mut self, number: usize, position: f64) -> Result<()> {
         let axis = self.control.tables.axis(number);
         let letter = char::from(axis.letter.byte());
         let scaled = axis.value(position)?;

@@ -67,8 +67,7 @@ pub(super) fn format_leads(control: &mut Control, letters: &[Letter]) -> Vec<Opt
 /// A lead that the address can't hold.
 pub fn lead_word(control: &mut Control, lead: &Lead) -> Result<()> {
     format_leads(control, &[F]);
-    let counted = control.commons.read(loc::THREAD_COUNT_ADDRESS);
-    let threads = counted.and_then(|letter| Some((letter, threads_in_lead(control, lead.value)?)));
+    let threads = counted_threads(control, lead.value);
     control.because(lead.cause, |control| {
         let Some((letter, threads)) = threads else {
             return control.word_rounded(F, lead.value, Rounding::Lead).map_err(of_lead);
@@ -94,10 +93,15 @@ pub fn of_lead(mut diag: Box<Diag>) -> Box<Diag> {
     diag
 }
 
-/// The least number of threads whose lead F holds to the digit; `None` where F holds that of one, or
-/// that of no such number.
-fn threads_in_lead(control: &Control, lead: f64) -> Option<u32> {
-    let format = control.tables.addresses.format(F)?;
+/// The least number of threads whose lead F holds to the digit in the format of leads, and the letter
+/// of that number; `None` where F holds that of one, or that of no such number, and for a machine
+/// without such a letter.
+pub fn counted_threads(control: &Control, lead: f64) -> Option<(Letter, u32)> {
+    let letter = control.commons.read(loc::THREAD_COUNT_ADDRESS)?;
+    Some((letter, threads_in_lead(&control.tables.lead_format(F)?, lead)?))
+}
+
+fn threads_in_lead(format: &NumberFormat, lead: f64) -> Option<u32> {
     if Rounding::Lead.scale(lead, format).is_ok() {
         return None;
     }
