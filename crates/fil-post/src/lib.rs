@@ -27,7 +27,7 @@ pub mod words;
 
 pub use cause::{Cause, FilLine, Origin, Stack, Stacks};
 pub use noted::{BlockInfo, DueTo, Noted, WordInfo};
-pub use post::Post;
+pub use post::{Post, WaitsForMotion};
 
 /// The examples of the README, run with the documentation tests.
 #[cfg(doctest)]

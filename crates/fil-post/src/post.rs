@@ -17,6 +17,15 @@ use crate::operation::{End, Feed};
 use crate::path::{Path, long_arc, tool_change};
 use crate::words::end;
 
+/// What waits for the next motion of the CL file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WaitsForMotion {
+    /// How often RAPID was given before.
+    rapids: u32,
+    /// A CIRCLE waits for its end.
+    arc: bool,
+}
+
 /// The generalized post of one run.
 ///
 /// Finished blocks lie in the tape of its [`Control`]; whoever drives the post takes
@@ -107,6 +116,34 @@ impl Post {
         self.path.in_chords = false;
         self.path.rapid = None;
         self.path.interrupt();
+    }
+
+    /// What waits for the next motion of the CL file.
+    pub fn waits_for_motion(&self) -> WaitsForMotion {
+        WaitsForMotion { rapids: self.path.rapids, arc: self.path.arc.is_some() }
+    }
+
+    /// A section has taken a motion of the CL file for which this waited when its record came:
+    /// RAPID before it was for that motion, and GODLTA behind it counts from a point that the post
+    /// has not seen, unless motions of the section have replaced it.
+    ///
+    /// # Errors
+    /// It was the end of a CIRCLE that the post waits for.
+    pub fn motion_is_taken(&mut self, waits: WaitsForMotion, is_replaced: bool) -> Result<()> {
+        if waits.arc && self.path.arc.is_some() {
+            return PostCode::ArcEnd.err_with(
+                "a section takes the GOTO that ends the CIRCLE before it, and the next GOTO would \
+                 be taken for its end",
+                "Take the CIRCLE too, or give its end to the post with POSTF(13).",
+            );
+        }
+        if self.path.rapids == waits.rapids {
+            self.path.rapid = None;
+        }
+        if !is_replaced {
+            self.path.taken_behind = self.path.point;
+        }
+        Ok(())
     }
 
     /// Takes some feed where none was given, to look for errors other than that.

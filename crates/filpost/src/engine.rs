@@ -274,6 +274,7 @@ impl<'o, 'r> Engine<'o, 'r> {
         let (number, line) = (self.record.number, self.record.line);
         self.outside.fini_taken |= self.record.kind == kind::FINI;
         self.outside.section = Some(section);
+        self.outside.watch_taken(&self.record);
         self.exchange_values();
         // As `dyn`, so that the machine is compiled once for all its hosts: it asks them seldom.
         let host: &mut dyn Host = &mut self.outside;
@@ -296,9 +297,19 @@ impl<'o, 'r> Engine<'o, 'r> {
             swallowed = false;
             self.outside.look_ahead(&self.record, &mut self.vocabulary)?;
             self.outside.process(&self.record, &self.vocabulary)?;
+            self.outside.taken.is_posted(&self.record);
         }
+        self.settle_taken()?;
         self.outside.section_done(section, (number, line), swallowed);
         Ok(())
+    }
+
+    fn settle_taken(&mut self) -> Result<()> {
+        let settled = self.outside.settle_taken();
+        settled.map_err(|diag| {
+            let place = self.outside.place(&self.record, &self.vocabulary);
+            Box::new(diag.at(place))
+        })
     }
 
     /// In a first pass a section may fail because it was told a number that is not the right

@@ -28,6 +28,7 @@ pub mod case;
 pub mod check;
 mod coming;
 mod compat;
+mod coordinates;
 pub mod coverage;
 pub mod debug;
 mod doubt;

@@ -9,6 +9,7 @@ use fil_cl::{
 use fil_diag::Result;
 use fil_post::operation::NextTools;
 
+use crate::coordinates::{Coordinates, coordinates};
 use crate::memory::Memory;
 use crate::written::Written;
 
@@ -17,10 +18,6 @@ const LOOK_AHEAD: usize = 1000;
 
 /// Records of a stream that are kept to find the next tool.
 const TOOLS_AHEAD: usize = 100_000;
-
-/// X Y Z I J K of a motion record, and 1 for a rapid move, else 0; without a tool
-/// axis of its own I J K are absent.
-pub(crate) type Coordinates = [Option<f64>; 7];
 
 /// Gives the records of a run in their order.
 pub(crate) enum Stream<'r> {
@@ -203,18 +200,18 @@ impl<'r> Source<'r> {
     /// # Errors
     /// What the reader refuses.
     pub fn next(&mut self, vocabulary: &mut Vocabulary) -> Result<Option<Coordinates>> {
-        let mut rapid = self.rapid;
+        let (mut rapid, before) = (self.rapid, self.motions[1]);
         for index in 0..LOOK_AHEAD {
             let Some(record) = self.ahead(index, vocabulary)? else { break };
             match record.kind {
-                kind::MOTION => return Ok(Some(coordinates(record, rapid))),
+                kind::MOTION => return Ok(Some(coordinates(record, rapid, before))),
                 kind::FINI => break,
                 _ => rapid |= record.major == words::RAPID,
             }
             let number = record.number;
             let meant = self.written.meaning_of(number).iter();
             if let Some(motion) = meant.clone().find(|record| record.kind == kind::MOTION) {
-                return Ok(Some(coordinates(motion, rapid)));
+                return Ok(Some(coordinates(motion, rapid, before)));
             }
         }
         Ok(None)
@@ -339,7 +336,8 @@ impl<'r> Source<'r> {
         let before = self.tool;
         if let Some(last) = last {
             let rapid = std::mem::take(&mut self.rapid);
-            self.motions = [self.motions[1], Some(coordinates(last, rapid))];
+            let before = self.motions[1];
+            self.motions = [before, Some(coordinates(last, rapid, before))];
             self.tool.has_moved = true;
         } else {
             self.tool.take(record);
@@ -459,16 +457,4 @@ impl Tools {
 /// True for a record that takes a tool.
 pub(crate) fn changes_tool(record: &Record) -> bool {
     matches!(record.major, words::LOADTL | words::LOAD | words::TURRET)
-}
-
-fn coordinates(record: &Record, rapid: bool) -> Coordinates {
-    let mut found = [None; 7];
-    found[6] = Some(f64::from(u8::from(rapid)));
-    let parts = record.point().into_iter().chain(record.axis());
-    for (place, part) in parts.enumerate() {
-        for (slot, value) in found[place * 3..].iter_mut().zip(part) {
-            *slot = Some(value);
-        }
-    }
-    found
 }

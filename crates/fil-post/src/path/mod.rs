@@ -88,6 +88,8 @@ pub struct Path {
     pub(crate) in_cut: bool,
     /// The points were moved since the last one came, or the tool away from it.
     pub(crate) is_left: bool,
+    /// The last point when a section took a motion: behind it the CL file goes on from another one.
+    pub(crate) taken_behind: Option<Point3<f64>>,
     /// Last rotary positions in degrees; `None` before the first motion.
     pub rotary: Option<[f64; 2]>,
     /// Last rotary positions as they are the nearest if no axis has limits, degrees.
@@ -110,6 +112,8 @@ pub struct Path {
     pub(crate) writes_inverse_time: bool,
     /// RAPID was given, by this record: the next motion is rapid.
     pub rapid: Option<Cause>,
+    /// How often RAPID was given.
+    pub(crate) rapids: u32,
     /// Feed of the next feed motion.
     pub feed: Option<Feed>,
     /// FEDRAT/INVERS,AUTO: feed motions say how long they take.
@@ -190,6 +194,7 @@ impl Default for Path {
             has_moved: false,
             in_cut: false,
             is_left: false,
+            taken_behind: None,
             rotary: None,
             free: None,
             turns: [Turn::default(); 2],
@@ -201,6 +206,7 @@ impl Default for Path {
             straightness: Straightness::default(),
             writes_inverse_time: false,
             rapid: None,
+            rapids: 0,
             feed: None,
             inverse_time: false,
             in_chords: false,

@@ -31,6 +31,12 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
              stand at the last point",
         );
     }
+    if post.path.taken_behind == Some(start) {
+        return PostCode::ArcStart.err(
+            "GODLTA behind a motion that a section has taken: it counts from a point that the \
+             post has not seen",
+        );
+    }
     goto::refuse_waiting_arc(post)?;
     thread::refuse_awaited(post)?;
     // The numbers of a motion stand from its word 6 on.

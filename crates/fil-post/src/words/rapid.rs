@@ -14,5 +14,6 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     items.deny_rest()?;
     thread::refuse_awaited(post)?;
     post.path.rapid = Some(post.control.block.cause);
+    post.path.rapids += 1;
     Ok(())
 }

@@ -59,6 +59,9 @@ impl Host for Outside<'_, '_> {
         });
         self.post.control.tape.cause.stack = 0;
         result?;
+        if record.line != 0 {
+            self.taken.is_posted(record);
+        }
         self.spill()
     }
 
@@ -78,6 +81,7 @@ impl Host for Outside<'_, '_> {
             self.fini_taken |= next.kind == kind::FINI;
             if next.kind != kind::PSEUDO || self.section_of(&next, vocabulary).is_some() {
                 *record = next;
+                self.taken.is_current(record, &self.post);
                 return Ok(true);
             }
             self.process(&next, vocabulary)?;
@@ -96,6 +100,7 @@ impl Host for Outside<'_, '_> {
         let there = self.read(&mut found, vocabulary)?;
         if there {
             *record = found;
+            self.taken.is_current(record, &self.post);
         }
         Ok(there)
     }

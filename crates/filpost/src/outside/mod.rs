@@ -2,9 +2,11 @@
 
 mod carry_out;
 mod host;
+mod taken;
 mod told;
 
 pub(crate) use host::common_kind;
+use taken::Taken;
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -73,6 +75,8 @@ pub(crate) struct Outside<'o, 'r> {
     pub map: Option<map::Writer<'o>>,
     /// Locations without effect that FIL has set.
     idle: HashSet<(Kind, u32)>,
+    /// Motions that the section has taken.
+    pub(crate) taken: Taken,
     /// The section that runs.
     pub section: Option<SectionId>,
     /// The stretch is open in which RAPIDs look ahead; `None` before the first record that may
@@ -118,6 +122,7 @@ impl<'o, 'r> Outside<'o, 'r> {
             trace: false,
             map,
             idle: HashSet::new(),
+            taken: Taken::default(),
             section: None,
             in_stretch: None,
             editor: None,

@@ -1,0 +1,58 @@
+//! Motions of the CL file that a section takes: neither it nor POSTF(13) gives them to the post.
+
+use fil_cl::vocabulary::words;
+use fil_cl::{Record, record::kind};
+use fil_diag::Diag;
+use fil_post::{Post, WaitsForMotion};
+
+use super::Outside;
+
+/// The motions that were current while a section ran and that the post has not carried out: the
+/// numbers of their records, ascending, and what waited for each.
+#[derive(Debug, Default)]
+pub(crate) struct Taken {
+    motions: Vec<(u32, WaitsForMotion)>,
+    /// The point that the post had when the section began.
+    from: Option<[f64; 3]>,
+}
+
+impl Taken {
+    /// A record has become current; those behind it come again, if the section went back.
+    pub fn is_current(&mut self, record: &Record, post: &Post) {
+        self.motions.retain(|(number, _)| *number < record.number);
+        if moves(record) {
+            self.motions.push((record.number, post.waits_for_motion()));
+        }
+    }
+
+    /// The post has carried out a record of the CL file.
+    pub fn is_posted(&mut self, record: &Record) {
+        self.motions.retain(|(number, _)| *number != record.number);
+    }
+}
+
+impl Outside<'_, '_> {
+    /// A section begins with a record.
+    pub fn watch_taken(&mut self, record: &Record) {
+        self.taken = Taken { motions: Vec::new(), from: self.post.point() };
+        self.taken.is_current(record, &self.post);
+    }
+
+    /// A section has ended: what waits for a motion that it has taken waits no longer.
+    ///
+    /// # Errors
+    /// As [`Post::motion_is_taken`].
+    pub fn settle_taken(&mut self) -> Result<(), Box<Diag>> {
+        let Taken { motions, from } = std::mem::take(&mut self.taken);
+        let is_replaced = self.post.point() != from;
+        motions.into_iter().try_for_each(|(_, waits)| self.post.motion_is_taken(waits, is_replaced))
+    }
+}
+
+/// True for a record that RAPID makes rapid, or that ends what RAPID has begun.
+fn moves(record: &Record) -> bool {
+    match record.kind {
+        kind::MOTION => record.major != words::FROM,
+        _ => matches!(record.major, words::GOHOME | words::RETRCT),
+    }
+}
