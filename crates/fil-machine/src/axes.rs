@@ -408,6 +408,20 @@ impl Axis {
         }
     }
 
+    /// True when some ways of more than a digit are none (`motion.same_tolerance`).
+    #[inline]
+    pub fn leaves_out_small_ways(&self) -> bool {
+        !self.is_exact
+    }
+
+    /// True when the way between two positions is none, so that the word of its end is left out.
+    ///
+    /// # Errors
+    /// A position that does not fit its address.
+    pub fn is_no_way(&self, from: f64, to: f64) -> Result<bool> {
+        Ok((self.scaled(to)? - self.scaled(from)?).abs() <= self.same)
+    }
+
     /// True when the settings suppress the words of this axis.
     #[inline]
     pub fn is_off(&self) -> bool {

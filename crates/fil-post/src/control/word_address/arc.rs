@@ -96,7 +96,8 @@ fn reads_at_a_glance(control: &Control, arc: &PlaneArc) -> bool {
     for number in arc.plane.axes() {
         let axis = control.tables.axis(number).resolution();
         let center = control.tables.addresses.format(IJK[number]);
-        if center.is_none_or(|format| format.unscale(1) > axis) {
+        let is_coarse = center.is_none_or(|format| format.unscale(1) > axis);
+        if is_coarse || control.tables.axis(number).leaves_out_small_ways() {
             return false;
         }
         digit = digit.max(axis);
@@ -118,11 +119,14 @@ fn reads_at_a_glance(control: &Control, arc: &PlaneArc) -> bool {
 /// The same from the words as they will be written.
 fn reads_when_rounded(control: &Control, arc: &PlaneArc) -> Result<bool> {
     let axes = arc.plane.axes().map(|number| control.tables.axis(number));
+    let leaves_out = control.commons.read(loc::CIRCLE_AXES_MODAL);
     let start = arc.start;
     let mut end = arc.flat(&arc.to);
     let mut digit: f64 = 0.0;
     for index in [0, 1] {
-        end[index] = axes[index].on_tape(end[index])?;
+        // A word that is left out leaves the end where the start is.
+        let is_left_out = leaves_out && axes[index].is_no_way(start[index], end[index])?;
+        end[index] = if is_left_out { start[index] } else { axes[index].on_tape(end[index])? };
         digit = digit.max(axes[index].resolution());
     }
     let Some((center, finest)) = center_on_tape(control, arc, start, end)? else {
