@@ -156,6 +156,10 @@ fil_diag::codes! {
         TurnsClamped = 537, Error, "a clamped rotary axis would turn",
             "CLAMP/ON or a text has clamped the rotary axes, and nothing has released them since: the drive would turn against the brake, or the control would stop.",
             "Put CLAMP / OFF before the motion that turns the machine.";
+        /// A rapid along a leaning tool that is not straight.
+        RapidBends = 540, Error, "rapid that is not straight along a leaning tool",
+            "Along a tool that a head leans a rapid block moves two or three axes, and this control drives each of them at its own speed (rapid.straight = 2), so that the tool would leave its line, into the part.",
+            "Let the CAM system write these ways at feed, or switch the control to straight rapid motions and say rapid.straight = 1.";
         /// A block that is too long.
         BlockLength = 541, Error, "block longer than the control reads",
             "The rest of a block that is longer than the control's buffer would be lost.",
@@ -284,6 +288,10 @@ fil_diag::codes! {
         Undivided = 591, Warning, "the tip leaves its line while the machine turns",
             "LINTOL / OFF or rotary.tolerance = 0 lets motions that turn the machine be one block each, as one at feed right behind a tool change is; all axes go evenly, and the tip goes along a curve.",
             "Give LINTOL or rotary.tolerance a value, or check the program with filpost verify --between.";
+        /// A rapid along a leaning tool may not be straight.
+        RapidMayBend = 578, Warning, "rapid while a head leans the tool",
+            "Along a tool that a head leans a rapid block moves two or three axes, and some controls drive each of them at its own speed there, so that the tool leaves its line.",
+            "Look what the control does (on a Fanuc bit LRP of parameter 1401), and say it with rapid.straight: 1 is straight.";
         /// The length of a tool that lies across Z.
         LengthAcross = 593, Warning, "the length of a tool that lies across Z",
             "The control counts the length offset along Z, and the tool of this machine lies along another axis.",

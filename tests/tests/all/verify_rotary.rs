@@ -574,3 +574,17 @@ fn a_way_up_behind_a_tool_change_need_not_go_along_a_head_that_leans() {
     let nc = milled(&format!("{start}; T1 M6; G0 G43 Z400. H1"));
     Case { ready, settings, cl: changed, nc: &nc }.agrees();
 }
+
+/// Along a leaning tool a rapid goes by X and Z at once, which a control need not drive in step.
+#[test]
+fn a_rapid_that_bends_along_a_leaning_head_is_found() {
+    let cl = "MULTAX / ON; RAPID; GOTO / 50, 0, 86.602540, 0.5, 0, 0.8660254038; RAPID; \
+              GOTO / -9, 0, -15.588457, 0.5, 0, 0.8660254038";
+    let nc = milled("G0 X125. Y0.; B30. C0.; G43 Z66.506 H1; X66. Z-35.685");
+    let straight = &["rotary.tip_output=0", "rapid.straight=1"];
+    Case { ready: "fanuc-5x-head", settings: straight, cl, nc: &nc }
+        .agrees_but_not_with(("X66. Z-35.685", "X66. Z-36.685"), "Z");
+    let bent = &["rotary.tip_output=0", "rapid.straight=2"];
+    Case { ready: "fanuc-5x-head", settings: bent, cl, nc: &nc }
+        .asks_for("rapid by several axes while a head leans the tool");
+}

@@ -5,8 +5,9 @@ use nalgebra::Vector3;
 use fil_machine::axis_chain::Carries;
 
 use super::ahead::Steps;
+use super::report::FindingKind;
 use super::walk::{STILL, Walk};
-use crate::motion::{Move, Position};
+use crate::motion::{Course, Move, Position};
 
 /// Directions are one where the cosine between them is less than this below 1.
 const PARALLEL: f64 = 1e-8;
@@ -57,6 +58,31 @@ impl<C: Steps> Walk<'_, C> {
             None if leg == Leg::ToMachine && self.is_up => UPRIGHT,
             None if leg == Leg::FromAfar || self.known[..3] != [true; 3] => UPRIGHT,
             None => Lie::Leaning,
+        }
+    }
+
+    /// A rapid along a tool that a head leans goes by several axes at once, and this control drives
+    /// each of them at its own speed.
+    pub(super) fn check_bend(&mut self, cl_line: u32, found: &Move) {
+        if found.course != Course::Rapid || !self.settings.bends_rapids() {
+            return;
+        }
+        let leans = [self.at.rotary, found.to.rotary].iter().any(|rotary| {
+            self.tool_on_axes(*rotary).iter().all(|part| part.abs() < 1.0 - PARALLEL)
+        });
+        let moves = |n: usize| {
+            found.known[n]
+                && !(self.known[n] && (found.to.linear[n] - self.at.linear[n]).abs() <= STILL)
+        };
+        let count = (0..3).filter(|n| moves(*n)).count();
+        let by_several = match found.to.names_tip() {
+            true => count > 0,
+            false => count > 1 && moves(2),
+        };
+        if leans && by_several {
+            let message = "rapid by several axes while a head leans the tool: each goes at its own \
+                           speed, and the tool leaves its line";
+            self.find(FindingKind::Order, Some(cl_line), Some(found.line), message.to_string());
         }
     }
 

@@ -448,6 +448,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.check_plane(cl_line, found);
         self.was_compensated = found.modes.compensation != Compensation::Off;
         self.check_limits(cl_line, found);
+        self.check_bend(cl_line, found);
         self.leaves_or_comes(found);
         self.follow_groove(found);
         self.follow_height(found, cuts);

@@ -9,7 +9,7 @@ use nalgebra::Rotation3;
 
 use super::word_address::arc::PlaneArc;
 use super::word_address::motion::{self as words, Motion, RapidCode};
-use super::{Control, departure, klartext, sinumerik, vectors, word_address};
+use super::{Control, departure, klartext, sinumerik, straight_rapid, vectors, word_address};
 use crate::cause::Cause;
 use crate::errors::PostCode;
 use crate::operation::{Dwell, Feed, Lead, Operation, Thread, ToolChange};
@@ -61,6 +61,7 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
 /// As [`words::rapid`].
 pub fn rapid(control: &mut Control, motion: &Motion, code: RapidCode, cause: Cause) -> Result<()> {
     departure::refuse(control, motion, "a rapid motion")?;
+    straight_rapid::look(control, motion)?;
     match control.tables.family {
         ControlFamily::Klartext => klartext::motion::rapid(control, motion),
         _ => words::rapid(control, motion, code, cause),

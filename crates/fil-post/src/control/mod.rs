@@ -22,6 +22,7 @@ pub mod replaced;
 pub mod sinumerik;
 pub(crate) mod skip;
 mod speed_of_others;
+mod straight_rapid;
 mod tap;
 mod texts;
 pub mod vectors;

@@ -1,5 +1,6 @@
 //! What the settings of a machine make of lines, rapids, arcs and feeds.
 
+use fil_machine::axis_chain::Carries;
 use fil_machine::commons::Dbl;
 use fil_machine::locations::{
     self as loc, CircleCorrection, FeedInverseLength, HomeFrame, LinearMethod, RotaryTipForm,
@@ -104,6 +105,13 @@ impl Settings<'_> {
     /// Motions under MULTAX/ON are written in tool-tip control.
     pub fn has_tip_control(&self) -> bool {
         self.commons.read(loc::ROTARY_TIP_OUTPUT) == loc::RotaryTipOutput::ToolTipControl
+    }
+
+    /// A rapid block of several axes is not straight, and heads lean the tool.
+    pub fn bends_rapids(&self) -> bool {
+        let mut heads = self.forward.rotaries().iter().flatten();
+        self.commons.read(loc::RAPID_STRAIGHT) == loc::RapidStraight::EachAxisAtItsOwnSpeed
+            && heads.any(|axis| axis.carries == Carries::Head)
     }
 
     /// An arc outside of the plane of cutter compensation changes that plane.
