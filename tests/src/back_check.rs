@@ -104,3 +104,16 @@ pub fn found(ready: &str, settings: &[&str], cl: &str, nc: &str) -> String {
 pub fn listed(report: &Report) -> String {
     report.findings.iter().map(|finding| format!("\n  {finding}")).collect()
 }
+
+/// Asks that nothing is found in a program, and something that says this with each of the changes.
+///
+/// # Panics
+/// It is not so.
+pub fn each_is_found(check: &dyn Fn(&str) -> String, nc: &str, changes: &[(&str, &str, &str)]) {
+    assert_eq!(check(nc), "");
+    for (old, new, said) in changes {
+        assert!(nc.contains(old), "no {old} in {nc}");
+        let wrong = check(&nc.replacen(old, new, 1));
+        assert!(wrong.contains(said), "{old} to {new}: {wrong}");
+    }
+}

@@ -182,8 +182,6 @@ pub struct OtherPlane {
     pub must: usize,
     /// The line that has said it; 0 where the machine was in it when the program began.
     pub line: u32,
-    /// A record may ask for it: it is that of a live tool outside of TRANSMIT.
-    pub may_be_asked: bool,
 }
 
 impl std::fmt::Display for OtherPlane {
@@ -250,9 +248,12 @@ pub struct Modes {
     /// A plane other than XY that the program of a mill has said, by the index of its normal,
     /// and the line of that; of motions alone.
     pub plane: Option<(usize, u32)>,
-    /// The plane that the program of a SINUMERIK lathe is in, where its motion needs another; of
-    /// motions alone.
+    /// The plane that the program of a SINUMERIK is in, where its motion needs another; of motions
+    /// alone.
     pub other_plane: Option<OtherPlane>,
+    /// The plane in which a mill has taken up the length that is in force by its function, where it
+    /// lies across the tool there: some controls count it square to that plane.
+    pub length_plane: Option<OtherPlane>,
     /// The plane in force, by the index of its normal, while cutter compensation is on; of motions
     /// alone.
     pub compensation_plane: Option<usize>,

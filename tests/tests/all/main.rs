@@ -40,6 +40,7 @@ mod verify_five_axes;
 mod verify_idle;
 mod verify_lathes;
 mod verify_modes;
+mod verify_planes;
 mod verify_rotary;
 mod verify_threads;
 mod verify_ways;

@@ -1,7 +1,7 @@
 //! What the back-check finds in programs of lathes and mill-turn machines by hand.
 
 use filpost::Program;
-use filpost_tests::back_check::found;
+use filpost_tests::back_check::{each_is_found, found};
 
 /// What a ready post with settings makes of a CL file in mm, without block numbers and with `; `
 /// between blocks, as it stands in the file.
@@ -201,16 +201,6 @@ fn speed_modes_of_a_feed_a_minute_are_followed() {
     assert_eq!(found("sinumerik-lathe", &[], cl, nc), "");
     let a_turn = |text: &str| text.replace("G971", "G97");
     assert_ne!(found("sinumerik-lathe", &[], &a_turn(cl), &a_turn(nc)), "");
-}
-
-/// Exchanges pieces of a program, each of which must be found.
-fn each_is_found(check: &dyn Fn(&str) -> String, nc: &str, changes: &[(&str, &str, &str)]) {
-    assert_eq!(check(nc), "");
-    for (old, new, said) in changes {
-        assert!(nc.contains(old), "no {old} in {nc}");
-        let wrong = check(&nc.replacen(old, new, 1));
-        assert!(wrong.contains(said), "{old} to {new}: {wrong}");
-    }
 }
 
 /// The plane says along which axes a SINUMERIK lathe counts the lengths of a tool.

@@ -6,6 +6,7 @@
 mod codes;
 mod family;
 mod g_codes;
+mod lengths;
 mod m_codes;
 mod marks;
 mod numbers;
@@ -207,6 +208,8 @@ pub struct Dialect {
     pub(crate) speed_limit: u8,
     /// That of the angle of an oriented spindle; 0 for none.
     pub(crate) orientation: u8,
+    /// A SINUMERIK counts the lengths of a tool along the same axes in every plane.
+    pub(crate) lengths_are_fast: bool,
     /// Control's dwell unit in a second.
     pub(crate) dwell_factor: f64,
     /// Control's dwell unit in a turn of the spindle, where it waits turns.
@@ -267,11 +270,6 @@ impl Dialect {
     /// X of a program is a diameter, unless it says otherwise.
     pub fn counts_diameters(&self) -> bool {
         self.scales[0].is_some_and(Scale::is_diameter)
-    }
-
-    /// The plane in force says along which axes the lengths of a tool count, as on a SINUMERIK lathe.
-    pub fn counts_lengths_in_plane(&self) -> bool {
-        self.family == Family::Sinumerik && self.counts_diameters()
     }
 
     /// The language of the machine that these commons describe.
@@ -396,6 +394,7 @@ impl Dialect {
             thread_count: settings.letter("thread.count_address"),
             speed_limit: settings.letter("spindle.max_address"),
             orientation: settings.letter("spindle.orient_address"),
+            lengths_are_fast: settings.flag("tool.length_const"),
             dwell_factor: factor(&settings, "dwell.upm_factor"),
             turns_factor: settings.number("dwell.upr_factor").filter(|factor| *factor > 0.0),
             feed_factor: factor(&settings, "feed.upm_factor"),

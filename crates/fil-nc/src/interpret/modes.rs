@@ -5,7 +5,9 @@ use super::words::{Words, letter};
 use super::{Fault, osp_thread};
 use crate::dialect::{Auxiliary, Family, Function, Group, ToolCall};
 use crate::errors::NcCode;
-use crate::motion::{Compensation, Event, FOOT, Modes, Speed, Spindle, StartMode, WORD_OFFSETS};
+use crate::motion::{
+    Compensation, DRILLED, Event, FOOT, Modes, Speed, Spindle, StartMode, WORD_OFFSETS,
+};
 
 pub(super) const H: u8 = letter(b'H');
 const P: u8 = letter(b'P');
@@ -121,6 +123,8 @@ impl State<'_> {
                 self.modes.length_offset = Some(offset.ok_or_else(missing)?);
                 self.modes.stray_offset = None;
                 self.length_is_on = true;
+                let along_z = self.dialect.takes_up_lengths_along_z();
+                self.modes.length_plane = self.plane_but(DRILLED).filter(|_| along_z);
             }
             Some(Function::TipControl) => self.begin_tip_control(words, false)?,
             Some(Function::TipControlByDirection) => self.begin_tip_control(words, true)?,
@@ -128,6 +132,7 @@ impl State<'_> {
                 words.take_whole(H)?;
                 self.modes.length_offset = None;
                 self.modes.stray_offset = None;
+                self.modes.length_plane = None;
                 self.end_tip_control();
             }
             // A tool change may end the function: then H alone is not certain to act.

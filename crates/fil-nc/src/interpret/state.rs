@@ -12,9 +12,6 @@ use crate::motion::{
     Tilt, unit,
 };
 
-/// The normal of the plane in which a lathe turns.
-const TURNED: usize = 1;
-
 /// X, Y, Z in mm, primary and secondary rotary axis in degrees.
 pub(super) type Axes = [f64; 5];
 
@@ -137,23 +134,22 @@ impl<'d> State<'d> {
         }
     }
 
-    /// The plane in force on a SINUMERIK lathe, where it is not that in which the lengths of the
-    /// tool count rightly: X and Y in TRANSMIT, Z and X for all else.
+    /// The plane in force on a SINUMERIK, where it is not that in which the lengths of the tool
+    /// count rightly: X and Y in TRANSMIT, Z and X on a lathe, else that which the tool is square to.
     fn other_plane(&self) -> Option<OtherPlane> {
-        // Of a plane that neither the program nor the machine says that much is told elsewhere.
-        let is_unsaid = self.plane_line == 0 && !self.dialect.certain.has(StartMode::Plane);
-        let is_open = is_unsaid || self.live && !self.dialect.transforms;
+        let is_open = self.live && !self.dialect.transforms;
         if !self.dialect.counts_lengths_in_plane() || is_open {
             return None;
         }
-        let must = if self.polar { DRILLED } else { TURNED };
-        let may_be_asked = self.live && !self.polar;
-        (self.plane != must).then_some(OtherPlane {
-            normal: self.plane,
-            must,
-            line: self.plane_line,
-            may_be_asked,
-        })
+        self.plane_but(if self.polar { DRILLED } else { self.dialect.plane_of_lengths() })
+    }
+
+    /// The plane in force, where it is another one than must be.
+    pub(super) fn plane_but(&self, must: usize) -> Option<OtherPlane> {
+        // Of a plane that neither the program nor the machine says that much is told elsewhere.
+        let is_unsaid = self.plane_line == 0 && !self.dialect.certain.has(StartMode::Plane);
+        let is_other = self.plane != must && !is_unsaid;
+        is_other.then_some(OtherPlane { normal: self.plane, must, line: self.plane_line })
     }
 
     /// Takes the unit of what follows.
@@ -244,11 +240,9 @@ impl<'d> State<'d> {
         self.compensation_rests = false;
         let [x, y, z, primary, secondary] = to;
         let usual = [DRILLED, self.dialect.plane].contains(&self.said_plane);
-        let is_other = !usual && !self.dialect.lathe;
+        let is_other = !usual && !self.dialect.lathe && !self.dialect.counts_lengths_in_plane();
         let plane = is_other.then_some((self.said_plane, self.plane_line));
-        // A cycle of a SINUMERIK drills square to the plane in force, whichever that is.
-        let drills = self.cycle.is_some() || self.is_called_at_each;
-        let other_plane = self.other_plane().filter(|_| course != Course::Machine && !drills);
+        let other_plane = self.other_plane().filter(|_| course != Course::Machine);
         let is_compensated = self.modes.compensation != Compensation::Off;
         let compensation_plane = is_compensated.then_some(self.plane);
         let transformed = self.dialect.transforms && (self.polar || self.cylinder.is_some());

@@ -408,7 +408,8 @@ impl Pair<'_> {
                 "the length of the tool acts along another axis".to_string(),
             ),
             (
-                a.other_plane.map(|other| other.normal) != b.other_plane.map(|other| other.normal),
+                [a.other_plane, a.length_plane].map(|other| other.map(|other| other.normal))
+                    != [b.other_plane, b.length_plane].map(|other| other.map(|other| other.normal)),
                 FindingKind::Tool,
                 "the lengths of the tool act along other axes".to_string(),
             ),

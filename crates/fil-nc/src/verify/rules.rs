@@ -19,8 +19,9 @@ pub(super) struct Rules {
     said_of_length: bool,
     /// The hole drilled under compensation has been said.
     said_of_cycle: bool,
-    /// The plane of which was said that it is another.
-    other_plane: Option<OtherPlane>,
+    /// The planes of which was said that they are other ones: of motions, and where a length was
+    /// taken up.
+    other_planes: [Option<OtherPlane>; 2],
     rotary: RotaryRules,
 }
 
@@ -33,7 +34,7 @@ impl Rules {
             stray: None,
             said_of_length: false,
             said_of_cycle: false,
-            other_plane: None,
+            other_planes: [None; 2],
             rotary: settings.rotary_rules(),
         }
     }
@@ -112,12 +113,18 @@ impl Rules {
         self.said_of_length = cuts;
     }
 
-    /// The lengths of a turning tool, and of a live one in TRANSMIT, act in one plane alone.
+    /// The lengths of a tool act in one plane alone on a SINUMERIK, and on other mills some controls
+    /// count them square to that in which they were taken up.
     fn plane(&mut self, found: &Move) {
-        let other = found.modes.other_plane.filter(|other| !other.may_be_asked);
-        let before = std::mem::replace(&mut self.other_plane, other);
-        if let Some(other) = other.filter(|_| other != before) {
+        let now = [found.modes.other_plane, found.modes.length_plane];
+        let before = std::mem::replace(&mut self.other_planes, now);
+        let [motion, length] = [0, 1].map(|n| now[n].filter(|_| now[n] != before[n]));
+        if let Some(other) = motion {
             self.find(FindingKind::Tool, found.line, other.to_string());
+        }
+        if let Some(other) = length {
+            let message = format!("{other} where the length offset was taken up");
+            self.find(FindingKind::Tool, found.line, message);
         }
     }
 

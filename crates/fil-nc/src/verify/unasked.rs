@@ -4,7 +4,7 @@
 use super::ahead::Steps;
 use super::report::FindingKind;
 use super::walk::Walk;
-use crate::motion::{Compensation, DRILLED, Modes, Move, OtherPlane};
+use crate::motion::{Compensation, Modes, Move};
 
 impl<C: Steps> Walk<'_, C> {
     /// A statement that moves the zero stands in the settings or in INSERT, one that changes how
@@ -44,9 +44,6 @@ impl<C: Steps> Walk<'_, C> {
     /// The length of a tool acts across the plane in force: only an arc, a cycle, compensation
     /// that names its plane, or words of the user's own ask for another than that of the drill.
     pub(super) fn check_plane(&mut self, cl_line: u32, found: &Move) {
-        if let Some(other) = found.modes.other_plane.filter(|other| other.may_be_asked) {
-            return self.check_plane_of_live_tool(cl_line, found, other);
-        }
         let Some((plane, line)) = found.modes.plane else {
             self.plane = None;
             return;
@@ -63,18 +60,6 @@ impl<C: Steps> Walk<'_, C> {
             return;
         }
         self.check_other_plane(cl_line, found, (plane, line));
-    }
-
-    /// A live tool outside of TRANSMIT has the plane of turning, or the one in which its record
-    /// compensates it; that of X and Y is of TRANSMIT alone.
-    #[cold]
-    fn check_plane_of_live_tool(&mut self, cl_line: u32, found: &Move, other: OtherPlane) {
-        let is_news = self.plane.replace(other.normal) != Some(other.normal);
-        let is_compensated = found.modes.compensation != Compensation::Off;
-        let is_asked = self.modes.plane == other.normal && other.normal != DRILLED;
-        if is_news && !is_compensated && !is_asked {
-            self.find(FindingKind::Tool, Some(cl_line), Some(found.line), other.to_string());
-        }
     }
 
     #[cold]

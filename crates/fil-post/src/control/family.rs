@@ -9,7 +9,9 @@ use nalgebra::Rotation3;
 
 use super::word_address::arc::PlaneArc;
 use super::word_address::motion::{self as words, Motion, RapidCode};
-use super::{Control, departure, klartext, sinumerik, straight_rapid, vectors, word_address};
+use super::{
+    Control, departure, klartext, length_plane, sinumerik, straight_rapid, vectors, word_address,
+};
 use crate::cause::Cause;
 use crate::errors::PostCode;
 use crate::operation::{Dwell, Feed, Lead, Operation, Thread, ToolChange};
@@ -196,6 +198,17 @@ pub fn ready(control: &mut Control) -> Result<()> {
     words::ready(control)
 }
 
+/// The same for an arc in a plane.
+///
+/// # Errors
+/// As [`ready`].
+pub fn ready_for_arc(control: &mut Control, plane: Plane) -> Result<()> {
+    match control.tables.family {
+        ControlFamily::Klartext => klartext::motion::ready(control),
+        _ => words::ready_for_arc(control, plane),
+    }
+}
+
 /// The same for a hole: the control may be in the cycle that drills it.
 ///
 /// # Errors
@@ -207,11 +220,13 @@ pub fn ready_for_hole(control: &mut Control, in_cycle: bool) -> Result<()> {
     }
 }
 
-/// True when the control has arcs and helices in a plane.
+/// True when the control has arcs and helices in a plane, and counts the length of the tool along it
+/// there.
 pub fn has_arc(control: &Control, plane: Plane) -> bool {
     match control.tables.family {
         ControlFamily::Klartext => klartext::motion::has_arc(plane),
-        _ => true,
+        ControlFamily::Sinumerik => length_plane::may_be(control, plane),
+        ControlFamily::WordAddress => true,
     }
 }
 
@@ -256,7 +271,9 @@ pub fn arc(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result
         ControlFamily::Klartext => klartext::motion::arc(control, arc, feed),
         ControlFamily::Sinumerik => {
             sinumerik::check_arc(control)?;
-            word_address::arc::write(control, arc, feed)
+            word_address::arc::write(control, arc, feed)?;
+            control.state.in_plane_of_its_own = length_plane::is_of_one_motion(control, arc.plane);
+            Ok(())
         }
         ControlFamily::WordAddress => word_address::arc::write(control, arc, feed),
     }

@@ -13,6 +13,7 @@ mod edit;
 pub mod family;
 pub(crate) mod full_turn;
 pub mod klartext;
+pub mod length_plane;
 pub(crate) mod line;
 pub mod machine_frame;
 mod own_offsets;
@@ -280,6 +281,11 @@ impl Control {
     /// What a preparatory function does on this machine.
     pub fn meaning(&self, code: FunctionCode) -> Meaning {
         self.codes.meaning(code)
+    }
+
+    /// True for a function that takes up the length of the tool.
+    pub fn calls_length(&self, code: FunctionCode) -> bool {
+        self.codes.meaning(code) == Meaning::ToolLength && !self.codes.takes_length(code)
     }
 
     /// True for a G function that chooses a work offset, by itself or by a word beside it.

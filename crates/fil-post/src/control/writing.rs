@@ -9,7 +9,8 @@ use fil_machine::{FunctionCode, Letter};
 
 use super::word_address::modes;
 use super::{
-    Compensation, Control, Function, family, klartext, program, sinumerik, speed_of_others, texts,
+    Compensation, Control, Function, family, klartext, length_plane, program, sinumerik,
+    speed_of_others, texts,
 };
 use crate::cause::Cause;
 use crate::control_state::{Place, text};
@@ -83,7 +84,9 @@ impl Control {
             self.require_unit()?;
         }
         self.refuse_after_end()?;
-        modes::leave_plane_of_hole(self)?;
+        modes::leave_plane_of_its_own(self)?;
+        let plain: Vec<(Letter, f64)> = words.iter().map(|word| (word.0, word.1)).collect();
+        length_plane::before_others(self, &plain)?;
         if self.tables.style.edits_words
             && let Some(edited) = self.edited_words(words)?
         {
@@ -131,7 +134,8 @@ impl Control {
             self.state.program_begins();
         }
         self.refuse_after_end()?;
-        modes::leave_plane_of_hole(self)?;
+        modes::leave_plane_of_its_own(self)?;
+        length_plane::before_text(self, text)?;
         texts::check(text)?;
         if self.tables.family == ControlFamily::Sinumerik {
             sinumerik::reader::refuse_other_diameters(self, text)?;

@@ -172,9 +172,8 @@ pub struct ControlState {
     pub counted_surface: bool,
     /// X counts as the post writes it: on a lathe as a diameter, in a transformation as a radius.
     pub x_is_as_written: bool,
-    /// A hole cycle has left the plane that it drills square to, in which the lengths of a
-    /// lathe's tools count along other axes.
-    pub in_plane_of_hole: bool,
+    /// A hole cycle or an arc of a SINUMERIK has left the plane that it alone needs.
+    pub in_plane_of_its_own: bool,
     /// The code of the level that cycles return to; `None` when it is not known.
     pub return_level: Option<FunctionCode>,
     /// The program has ended: M2, M30.
@@ -223,7 +222,7 @@ impl ControlState {
             surface_speed: None,
             counted_surface: false,
             x_is_as_written: true,
-            in_plane_of_hole: false,
+            in_plane_of_its_own: false,
             return_level: None,
             ended: false,
             doubts: Doubts::default(),
@@ -388,7 +387,7 @@ impl ControlState {
             surface_speed: None,
             counted_surface: self.counted_surface,
             x_is_as_written: false,
-            in_plane_of_hole: self.in_plane_of_hole,
+            in_plane_of_its_own: self.in_plane_of_its_own,
             return_level: None,
             ended: self.ended,
             doubts,

@@ -106,7 +106,7 @@ impl ControlState {
         agree(&mut self.called_offset, &other.called_offset);
         self.counted_surface |= other.counted_surface;
         self.x_is_as_written &= other.x_is_as_written;
-        self.in_plane_of_hole |= other.in_plane_of_hole;
+        self.in_plane_of_its_own |= other.in_plane_of_its_own;
         self.compensation_begun &= other.compensation_begun;
         self.compensation_ends |= other.compensation_ends;
         self.doubts.or(&other.doubts);

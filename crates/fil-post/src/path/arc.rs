@@ -65,6 +65,7 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         if turns_axis { None } else { in_plane(post, arc, start, (radius, sweep), target)? };
     let whole = match whole {
         Some(whole) if is_across_compensation(post, &whole)? => None,
+        Some(whole) if !family::has_arc(&post.control, whole.plane) => None,
         whole => whole,
     };
     let Some(mut whole) = whole else {
@@ -73,7 +74,7 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         return long_arc::as_lines(post, arc, start, sweep, target);
     };
     check_travel(post, &whole)?;
-    family::ready(&mut post.control)?;
+    family::ready_for_arc(&mut post.control, whole.plane)?;
     let Some(stands) = words::start_on_tape(&post.control, &whole.from) else {
         return PostCode::ArcStart.err(ELSEWHERE);
     };
@@ -175,7 +176,9 @@ fn is_across_compensation(post: &Post, arc: &PlaneArc) -> Result<bool> {
     let control = &post.control;
     let other = control.state.plane.filter(|plane| *plane != arc.plane);
     let Some(plane) = other.filter(|_| control.state.compensates()) else { return Ok(false) };
-    if control.commons.read(loc::CIRCLE_CUTCOM_PLANE) != CircleCutcomPlane::StraightMoves {
+    let changes =
+        control.commons.read(loc::CIRCLE_CUTCOM_PLANE) != CircleCutcomPlane::StraightMoves;
+    if changes && family::has_arc(control, arc.plane) {
         return Ok(false);
     }
     let shared = arc.plane.axes().into_iter().position(|axis| axis != plane.normal());
@@ -242,9 +245,6 @@ fn in_plane(
     let found =
         Plane::ALL.into_iter().find(|plane| normal[plane.normal()].abs() > 1.0 - NEAR_PLANE);
     let Some(plane) = found else { return Ok(None) };
-    if !family::has_arc(&post.control, plane) {
-        return Ok(None);
-    }
     let most = post.control.commons.dbl_opt(loc::CIRCLE_MAX_RADIUS);
     let least = post.control.commons.dbl_opt(loc::CIRCLE_MIN_RADIUS);
     let axes = plane.axes();

@@ -56,7 +56,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::cause::Cause;
 use crate::control::word_address::motion;
-use crate::control::{family, full_turn};
+use crate::control::{family, full_turn, length_plane};
 use crate::operation::{Arc, Feed, Lead, NextTools, Operation, Target};
 use crate::post::Post;
 
@@ -338,6 +338,7 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
         mill_turn::before(post, &operation)?;
     }
     counted_spindle::refuse_choices_of_others(&post.control, &operation)?;
+    length_plane::refuse_repeated(&post.control, &operation)?;
     skip::note(post, &operation);
     if !matches!(operation, Operation::Text(_) | Operation::Words(_)) {
         let is_of_others = matches!(operation, Operation::Function(..));

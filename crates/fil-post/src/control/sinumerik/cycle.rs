@@ -15,8 +15,8 @@ use fil_machine::rounding::Rounding;
 use crate::block::named;
 use crate::control::family::refuse;
 use crate::control::word_address::motion::Motion;
-use crate::control::word_address::{compensation, modes, motion, spindle};
-use crate::control::{Control, line, tap};
+use crate::control::word_address::{modes, motion, spindle};
+use crate::control::{Control, length_plane, line, tap};
 use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
 use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
@@ -45,9 +45,11 @@ pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
 }
 
 /// False for a hole along X of a lathe: RTP, RFP and DP are positions and would be diameters, and
-/// whether SDIS, a length without a sign, is one too is not certain.
+/// whether SDIS, a length without a sign, is one too is not certain. False also for one whose plane is
+/// that of other lengths: the cycle drills square to it.
 pub fn drills(control: &Control, hole: &Hole) -> bool {
-    hole.along != 0 || !control.commons.read(loc::LATHE_DIAMETER)
+    let along_x_of_lathe = hole.along == 0 && control.commons.read(loc::LATHE_DIAMETER);
+    !along_x_of_lathe && length_plane::may_be(control, Plane::across(hole.along))
 }
 
 /// Calls the cycle for a hole: by MCALL once and the position, or the position and the
@@ -95,13 +97,12 @@ pub fn hole(
     Ok(())
 }
 
-/// Chooses the plane that the cycle drills square to. On a lathe the lengths of its tools count by
-/// the plane, so that what comes behind the cycle takes that of turning back.
+/// Chooses the plane that the cycle drills square to; what comes behind the cycle takes the usual
+/// one back.
 fn plane(control: &mut Control, hole: &Hole) -> Result<()> {
     let drilled = Plane::across(hole.along);
     modes::plane_of_its_own(control, drilled)?;
-    control.state.in_plane_of_hole =
-        control.commons.read(loc::LATHE_DIAMETER) && drilled != compensation::usual_plane(control);
+    control.state.in_plane_of_its_own = length_plane::is_of_one_motion(control, drilled);
     Ok(())
 }
 

@@ -264,7 +264,7 @@ pub fn start_on_tape(control: &Control, from: &Position) -> Option<[f64; 3]> {
 /// # Errors
 /// A code the machine lacks, a value that does not fit, no feed.
 pub fn write(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result<()> {
-    motion::ready(control)?;
+    motion::ready_for_arc(control, arc.plane)?;
     let as_ccw = arc.counterclockwise == codes_by_the_right_hand(control, arc.plane);
     let code = if as_ccw { loc::CIRCLE_CCW_CODE } else { loc::CIRCLE_CW_CODE };
     let code = control.code(code, "an arc")?;

@@ -8,7 +8,7 @@ use fil_machine::modes::Plane;
 
 use super::modes;
 use super::tool::OFFSETS;
-use crate::control::{Control, Function};
+use crate::control::{Control, Function, length_plane};
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::operation::CutterCompensation;
@@ -29,9 +29,11 @@ pub fn write(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
     } else if let Some((plane, word)) = wanted.plane {
         control.block.cause.word = word;
         refuse_plane_of_no_lathe(control, plane)?;
+        length_plane::refuse_compensation(control, plane)?;
         modes::plane_of_its_own(control, plane)?;
     } else if wanted.side != Compensation::Off {
         let usual = usual_plane(control);
+        length_plane::refuse_compensation(control, usual)?;
         modes::plane_of_its_own(control, usual)?;
     }
     let code = control.code(at, "cutter compensation")?;
@@ -89,6 +91,7 @@ fn plane_of_live_tool(control: &mut Control, wanted: CutterCompensation) -> Resu
         }
         Some((plane, word)) if !control.tables.is_polar() => {
             control.block.cause.word = word;
+            length_plane::refuse_compensation(control, plane)?;
             modes::plane_of_its_own(control, plane)
         }
         None if !control.tables.is_polar() && wanted.side != Compensation::Off => {

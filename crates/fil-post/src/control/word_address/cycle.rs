@@ -13,7 +13,7 @@ use fil_machine::rounding::Rounding;
 
 use super::motion::{self, Motion};
 use super::{dwell, modes, spindle};
-use crate::control::{Control, sinumerik};
+use crate::control::{Control, length_plane, sinumerik};
 use crate::control_state::Rotation;
 use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
@@ -84,6 +84,13 @@ pub fn no_tap(control: &Control) -> &'static str {
         Rotation::InDoubt => {
             "a text that can't be read, or a block that may be skipped, came after the spindle \
              turned counterclockwise; SPINDL before the tap says how it turns"
+        }
+        _ if length_plane::of_motions(control).is_some()
+            && !control.tables.mills()
+            && control.code_if_any(loc::CYCLE_TAP_CODE).is_some() =>
+        {
+            "the tapping cycle needs a plane in which the control counts the lengths of the tool along \
+             other axes; tool.length_const says that they count alike in every plane (SD42940)"
         }
         _ if control.tables.mills() && control.tables.family == ControlFamily::Sinumerik => {
             "a live tool of a SINUMERIK taps where mill_turn.rigid_tap says that SPOS positions it"

@@ -8,7 +8,7 @@ use fil_machine::modes::{Plane, Unit};
 
 use super::compensation;
 use crate::control::program::{plane_code, unit_code};
-use crate::control::{Control, Function, sinumerik};
+use crate::control::{Control, Function, length_plane, sinumerik};
 use crate::control_state::{Compensation, Distance};
 use crate::errors::PostCode;
 
@@ -24,7 +24,8 @@ pub fn require(control: &mut Control, unit: Unit) -> Result<()> {
     let stands = state.unit == Some(unit)
         && state.distance == Some(Distance::Absolute)
         && state.x_is_as_written
-        && !state.in_plane_of_hole
+        && !state.in_plane_of_its_own
+        && !length_plane::is_left(control)
         && state.in_cycle == Some(false)
         && state.compensation.is_some();
     if stands { Ok(()) } else { say_again(control, unit) }
@@ -86,18 +87,19 @@ fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
     }
     control.write_block()?;
     control.state.in_cycle = Some(false);
-    leave_plane_of_hole(control)?;
+    leave_plane_of_its_own(control)?;
+    length_plane::take_back(control)?;
     control.block = waiting;
     Ok(())
 }
 
-/// Says the plane of turning again behind a hole cycle that needed another one: whoever comes
-/// next, a tool or a text too, counts on the lengths of tools along its axes.
+/// Says the usual plane again behind a hole cycle or an arc that needed another one: whoever comes
+/// next, a tool or a text too, counts on it.
 ///
 /// # Errors
 /// As [`plane_of_its_own`].
-pub fn leave_plane_of_hole(control: &mut Control) -> Result<()> {
-    if !control.state.in_plane_of_hole || control.state.in_cycle != Some(false) {
+pub fn leave_plane_of_its_own(control: &mut Control) -> Result<()> {
+    if !control.state.in_plane_of_its_own || control.state.in_cycle != Some(false) {
         return Ok(());
     }
     plane_of_turning(control)
@@ -181,7 +183,7 @@ pub fn plane_of_arc(control: &mut Control, wanted: Plane, may_change: bool) -> R
 /// The control is in another plane and has no code for this one.
 pub fn plane_of_its_own(control: &mut Control, wanted: Plane) -> Result<()> {
     control.begin()?;
-    control.state.in_plane_of_hole = false;
+    control.state.in_plane_of_its_own = false;
     if control.state.plane == Some(wanted) {
         return Ok(());
     }

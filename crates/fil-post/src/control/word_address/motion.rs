@@ -7,12 +7,13 @@ use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet, Position};
 use fil_machine::letters::F;
 use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::modes::Plane;
 use fil_machine::rounding::Rounding;
 use fil_machine::{FunctionCode, Letter};
 
 use super::{modes, tool};
 use crate::cause::Cause;
-use crate::control::{Control, Function, full_turn, vectors};
+use crate::control::{Control, Function, full_turn, length_plane, vectors};
 use crate::control_state::{Compensation, Meaning};
 use crate::errors::PostCode;
 use crate::operation::{Feed, Lead};
@@ -218,13 +219,27 @@ pub fn ready(control: &mut Control) -> Result<()> {
     modes::require(control, unit)
 }
 
+/// The same for an arc: the control may be in its plane, behind another arc.
+///
+/// # Errors
+/// As [`ready`].
+pub fn ready_for_arc(control: &mut Control, plane: Plane) -> Result<()> {
+    let stays = control.state.in_plane_of_its_own && control.state.plane == Some(plane);
+    if stays {
+        control.state.in_plane_of_its_own = false;
+    }
+    let result = ready(control);
+    control.state.in_plane_of_its_own |= stays;
+    result
+}
+
 /// The same for a hole: the control may be in the cycle that drills it.
 ///
 /// # Errors
 /// As [`ready`].
 pub fn ready_for_hole(control: &mut Control, in_cycle: bool) -> Result<()> {
     // A cycle says its plane itself; a hole of single moves needs none.
-    let of_hole = std::mem::take(&mut control.state.in_plane_of_hole);
+    let of_hole = std::mem::take(&mut control.state.in_plane_of_its_own);
     let stays = in_cycle && control.state.in_cycle == Some(true);
     if stays {
         control.state.in_cycle = Some(false);
@@ -233,7 +248,7 @@ pub fn ready_for_hole(control: &mut Control, in_cycle: bool) -> Result<()> {
     if stays {
         control.state.in_cycle = Some(true);
     }
-    control.state.in_plane_of_hole = of_hole;
+    control.state.in_plane_of_its_own = of_hole;
     result
 }
 
@@ -420,7 +435,7 @@ fn cuts(control: &Control) -> bool {
 
 /// True when the block moves an axis of the plane in force.
 fn moves_in_plane(control: &Control) -> bool {
-    let plane = control.state.plane.unwrap_or(fil_machine::Plane::Xy);
+    let plane = control.state.plane.unwrap_or(Plane::Xy);
     plane.axes().into_iter().any(|number| control.block_has(control.tables.axis(number).letter))
 }
 
@@ -430,6 +445,7 @@ fn length_offset_words(control: &mut Control) -> Result<()> {
         return Ok(());
     }
     if let Some((offset, cause)) = control.waiting.length_offset.take() {
+        length_plane::before_length(control)?;
         let code = control.code(loc::TOOL_LENGTH_CODE, "tool length offset")?;
         control.tip.length_is_called = true;
         control.because(cause, |control| {

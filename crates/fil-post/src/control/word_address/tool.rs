@@ -7,7 +7,7 @@ use fil_machine::letters::{H, T};
 use fil_machine::locations::{self as loc, ControlFamily, ToolFormat};
 
 use super::motion::{self, Motion};
-use crate::control::Control;
+use crate::control::{Control, length_plane};
 use crate::errors::PostCode;
 use crate::operation::ToolChange;
 
@@ -23,11 +23,12 @@ pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
     check_station(control, wanted.tool)?;
     control.begin()?;
     super::cycle::cancel(control)?;
-    super::modes::leave_plane_of_hole(control)?;
+    super::modes::leave_plane_of_its_own(control)?;
     control.flush_waiting()?;
     if control.state.compensates() {
         return PostCode::CompensationOn.err("at a tool change; CUTCOM/OFF must come before it");
     }
+    length_plane::before_length(control)?;
     let modal = control.commons.read(loc::TOOL_MODAL);
     let stays =
         control.state.tool == Some(wanted.tool) && control.state.tool_offset == Some(wanted.offset);

@@ -1,0 +1,176 @@
+//! The plane in which the length of a tool acts along the tool.
+//!
+//! A SINUMERIK counts the lengths of a tool along the axes of the plane in force: the first one of
+//! a milling tool acts along Z in G17 and along Y in G18 (Siemens, Programming Manual
+//! Fundamentals). Other controls take the axis from the plane in which G43 stands where a parameter
+//! says so (Fanuc, 5001 TLB).
+
+use fil_diag::Result;
+use fil_machine::letters::G;
+use fil_machine::locations::{self as loc, ControlFamily, ToolFormat};
+use fil_machine::modes::Plane;
+use fil_machine::{FunctionCode, Letter};
+
+use super::Control;
+use super::word_address::{compensation, modes};
+use crate::cause::Cause;
+use crate::control_state::{Meaning, text};
+use crate::errors::PostCode;
+use crate::operation::Operation;
+
+/// Directions are one where the cosine between them is less than this below 1.
+const PARALLEL: f64 = 1e-9;
+
+/// The plane that every motion needs; `None` where lengths do not hang on it.
+pub fn of_motions(control: &Control) -> Option<Plane> {
+    let hangs = control.tables.family == ControlFamily::Sinumerik
+        && !control.commons.read(loc::TOOL_LENGTH_CONST);
+    hangs.then(|| of_tool(control))
+}
+
+/// The plane square to which the tool lies where its heads stand at zero: that of turning on a lathe,
+/// of the face in polar interpolation.
+fn of_tool(control: &Control) -> Plane {
+    if control.tables.is_polar() {
+        return Plane::Xy;
+    }
+    if control.commons.read(loc::LATHE_DIAMETER) {
+        return Plane::Zx;
+    }
+    let tool = control.tables.chain().tool;
+    let lies_along = |plane: &Plane| tool[plane.normal()].abs() >= 1.0 - PARALLEL;
+    Plane::ALL.into_iter().find(lies_along).unwrap_or_else(|| compensation::usual_plane(control))
+}
+
+/// True where a motion would be made in another plane than it needs, or may be.
+#[inline]
+pub fn is_left(control: &Control) -> bool {
+    control.tables.family == ControlFamily::Sinumerik
+        && of_motions(control).is_some_and(|plane| may_be_another(control, plane))
+}
+
+/// True where another plane is in force, or may be: behind a text that can't be read. What a program
+/// begins in is the matter of the machine, which says its plane or leaves it to the control.
+fn may_be_another(control: &Control, plane: Plane) -> bool {
+    match control.state.plane {
+        Some(now) => now != plane,
+        None => control.commons.read(loc::CIRCLE_PLANE).is_some(),
+    }
+}
+
+/// Says the plane that motions need, where another one may be in force.
+///
+/// # Errors
+/// As [`modes::plane_of_its_own`].
+pub fn take_back(control: &mut Control) -> Result<()> {
+    take(control, of_motions(control))
+}
+
+fn take(control: &mut Control, plane: Option<Plane>) -> Result<()> {
+    match plane {
+        Some(plane) if may_be_another(control, plane) => modes::plane_of_its_own(control, plane),
+        _ => Ok(()),
+    }
+}
+
+/// True where arcs, cycles and cutter compensation may choose a plane.
+pub fn may_be(control: &Control, plane: Plane) -> bool {
+    of_motions(control).is_none_or(|must| must == plane)
+}
+
+/// True for the plane of an arc or a cycle that what comes next does not keep, where lengths do not
+/// hang on it.
+pub fn is_of_one_motion(control: &Control, plane: Plane) -> bool {
+    control.tables.family == ControlFamily::Sinumerik
+        && of_motions(control).is_none()
+        && !control.tables.is_polar()
+        && !control.is_compensated()
+        && plane != compensation::usual_plane(control)
+}
+
+/// Refuses cutter compensation in a plane in which the lengths of the tool act along other axes.
+///
+/// # Errors
+/// It is one.
+pub fn refuse_compensation(control: &Control, plane: Plane) -> Result<()> {
+    if may_be(control, plane) {
+        return Ok(());
+    }
+    PostCode::CompensationAcross.err_with(
+        "CUTCOM in a plane in which this control counts the length of the tool along another axis",
+        "Leave the plane out, let the CAM system compensate, or say by tool.length_const that the \
+         control counts lengths alike in every plane (SD42940).",
+    )
+}
+
+/// Refuses REPEAT of a plane, whose motions would be made in it.
+///
+/// # Errors
+/// It repeats one in which the lengths of the tool act along other axes.
+pub fn refuse_repeated(control: &Control, operation: &Operation) -> Result<()> {
+    let Operation::Repeat(words) = operation else { return Ok(()) };
+    let Some(must) = of_motions(control) else { return Ok(()) };
+    let is_other = |code| matches!(control.meaning(code), Meaning::Plane(plane) if plane != must);
+    let says_other = |(letter, value, _): &(Letter, f64, Cause)| {
+        *letter == G && FunctionCode::of_value(*value).is_some_and(is_other)
+    };
+    if words.iter().any(says_other) {
+        return PostCode::Family.err(
+            "REPEAT of a plane in which the control counts the length of the tool along another axis",
+        );
+    }
+    Ok(())
+}
+
+/// Says the plane in which a length is taken up along the tool, on a mill that names it by a
+/// function: before the tool is changed, and before that function where another plane has come in
+/// between.
+///
+/// # Errors
+/// As [`modes::plane_of_its_own`].
+pub fn before_length(control: &mut Control) -> Result<()> {
+    take(control, of_length(control))
+}
+
+/// The same before a text or words that take up a length and say no plane.
+///
+/// # Errors
+/// As [`modes::plane_of_its_own`].
+pub fn before_others(control: &mut Control, words: &[(Letter, f64)]) -> Result<()> {
+    if !of_length(control).is_some_and(|plane| may_be_another(control, plane)) {
+        return Ok(());
+    }
+    let codes = || {
+        words
+            .iter()
+            .filter(|(letter, _)| *letter == G)
+            .filter_map(|(_, value)| FunctionCode::of_value(*value))
+    };
+    let says_plane = codes().any(|code| matches!(control.meaning(code), Meaning::Plane(_)));
+    if !says_plane && codes().any(|code| control.calls_length(code)) {
+        return before_length(control);
+    }
+    Ok(())
+}
+
+/// The same before a text; one that can't be read may do anything.
+///
+/// # Errors
+/// As [`modes::plane_of_its_own`].
+pub fn before_text(control: &mut Control, text: &str) -> Result<()> {
+    match text::read(text) {
+        Some(read) => before_others(control, &read.words),
+        None => Ok(()),
+    }
+}
+
+/// The plane in which a mill whose tool lies along Z takes up lengths by a function; `None` for other
+/// machines.
+fn of_length(control: &Control) -> Option<Plane> {
+    let is_mill = control.tables.family == ControlFamily::WordAddress
+        && !control.commons.read(loc::LATHE_DIAMETER)
+        && control.commons.read(loc::TOOL_FORMAT) == ToolFormat::TWordAndChangeCode
+        && control.code_if_any(loc::TOOL_LENGTH_CODE).is_some();
+    let along_z = control.tables.chain().tool.z.abs() >= 1.0 - PARALLEL;
+    (is_mill && along_z).then_some(Plane::Xy)
+}
