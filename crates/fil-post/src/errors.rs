@@ -244,6 +244,10 @@ fil_diag::codes! {
         Departure = 566, Error, "a move is longer than a block may be",
             "The machine says how far one block may go (limits.max_departure): motions at feed in a straight line are divided, others are not.",
             "Bring the tool nearer by a motion before it, or correct limits.max_departure.";
+        /// A full turn or none.
+        ArcNearlyFull = 567, Error, "an arc that is a full turn or none",
+            "The arc ends less than 0.001 mm beside its start, but not there: as it stands it is a full turn but for a rounding, or no motion to the last digit.",
+            "Let the CAM system end a full circle exactly where it begins, or say its turns by TIMES; leave an arc out that is shorter than that.";
         /// Too many functions in a block.
         Crowded = 542, Error, "functions that the control does not take in one block",
             "The control takes one preparatory function in a block, and each of these needs the words that stand there.",

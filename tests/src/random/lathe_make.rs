@@ -10,7 +10,7 @@ use super::model_motion::ends;
 use super::setup::Setup;
 use super::statement::{
     ArcShape, CoolantCommand, CutcomCommand, CycleKind, CycleShape, Feedrate, SpindleCommand,
-    Statement, Trans,
+    Statement, Trans, least_apart,
 };
 
 /// Texts that change the modes of the control.
@@ -181,6 +181,8 @@ impl Maker {
             2 => 10f64.powf(self.dice.between(-4.0, 0.0)).max((3e-6 / radius).to_degrees()),
             _ => self.dice.between(1f64.min(widest), widest),
         };
+        let apart = least_apart(self.size, radius);
+        let sweep = if sweep == 360.0 { sweep } else { sweep.clamp(apart, 360.0 - apart) };
         let shape = ArcShape {
             normal: Axis::Y,
             ccw: self.dice.once_in(2),

@@ -8,7 +8,9 @@ use super::features::{FEATURES, Feature};
 use super::geometry::add;
 use super::model_motion::ends;
 use super::setup::Setup;
-use super::statement::{ArcShape, CoolantCommand, Feedrate, SpindleCommand, Statement};
+use super::statement::{
+    ArcShape, CoolantCommand, Feedrate, SpindleCommand, Statement, least_apart,
+};
 
 /// A program and the machine it is for.
 #[derive(Clone, Debug, PartialEq)]
@@ -245,6 +247,7 @@ impl Maker {
         let widest = (150.0 * self.size / radius).min(6.0).to_degrees();
         let fine = self.has(Feature::FineArcs);
         let narrowest = (if fine { 3e-6 } else { 0.05 * self.size } / radius).to_degrees();
+        let apart = least_apart(self.size, radius);
         let sweep = match self.dice.below(8) {
             0 if widest > 300.0 => 360.0,
             1 if fine && widest > 190.0 => 180.0 + self.dice.between(-0.01, 0.01),
@@ -255,6 +258,8 @@ impl Maker {
         let helix = self.dice.once_in(4) && !self.compensated;
         let turns = widest > 300.0 && helix && self.dice.once_in(2);
         let times = if turns { 1 + self.dice.below(3) as u32 } else { 0 };
+        let open = times == 0 && sweep != 360.0;
+        let sweep = if open { sweep.clamp(apart, 360.0 - apart) } else { sweep };
         let shape = ArcShape {
             normal,
             ccw: self.dice.once_in(2),

@@ -77,6 +77,12 @@ pub enum Statement {
     ThreadOff,
 }
 
+/// The least angle between the ends of an arc that no rounding makes one, degrees: nearer to each
+/// other they are refused.
+pub fn least_apart(size: f64, radius: f64) -> f64 {
+    (1.1e-3 * size / radius).to_degrees().min(180.0)
+}
+
 /// An arc from where the tool is, in CL units and degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcShape {

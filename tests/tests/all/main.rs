@@ -37,6 +37,7 @@ mod tip_control;
 mod trace;
 mod verify;
 mod verify_five_axes;
+mod verify_holes;
 mod verify_idle;
 mod verify_lathes;
 mod verify_modes;

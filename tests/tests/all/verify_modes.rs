@@ -282,8 +282,8 @@ fn texts_and_words_of_the_user_are_not_those_of_records() {
 #[test]
 fn a_helix_without_a_turn_is_a_line() {
     let post = filpost::Program::builder().ready("heidenhain-tnc640").build().expect("a machine");
-    let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 300, MMPM\nGOTO / 2.2246, 1.6, 0\n\
-              CIRCLE / 2.2246, 0.7644, 0, 0, 0, 1, 0.8356\nGOTO / 2.22459, 1.6, 0.8\nFINI\n";
+    let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 300, MMPM\nGOTO / 2.2248, 1.6, 0\n\
+              CIRCLE / 2.2248, 1.5998, 0, 0, 0, 1, 0.0002\nGOTO / 2.2246, 1.5998, 0.8\nFINI\n";
     let nc = "0 BEGIN PGM 1 MM\n1 TOOL CALL 1 Z\n2 L X+2.225 Y+1.6 Z+0 R0 F300\n3 L Z+0.8\n\
               4 M30\n5 END PGM 1 MM\n";
     let said = |nc: &str| {

@@ -56,8 +56,8 @@ pub enum Function {
     ThreadPassesByPitch,
     /// That of an OSP, with its height in H.
     ThreadPassesByHeight,
-    /// Drilling cycle.
-    Cycle(CycleKind),
+    /// Drilling cycle; its code takes a dwell, or passes over it.
+    Cycle(CycleKind, bool),
     /// Drilling cycle of a lathe for live tools.
     LiveCycle {
         /// Along X; along Z else.
@@ -174,7 +174,7 @@ impl Function {
             | Function::Thread
             | Function::VaryingThread
             | Function::ThreadPass => Group::Motion,
-            Function::Cycle(_) | Function::LiveCycle { .. } | Function::CycleOff => Group::Cycle,
+            Function::Cycle(..) | Function::LiveCycle { .. } | Function::CycleOff => Group::Cycle,
             Function::Return { .. } => Group::Return,
             Function::Plane(_) => Group::Plane,
             Function::Units { .. } => Group::Units,

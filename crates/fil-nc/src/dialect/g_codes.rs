@@ -45,6 +45,13 @@ const STANDARD_CYCLES: &[(i32, CycleKind)] = &[
     (89, CycleKind::FeedOut),
 ];
 
+/// Cycles that pass over a dwell: those of Fanuc's mills.
+const WITHOUT_DWELL: [i32; 5] = [73, 81, 83, 85, 86];
+
+fn dwells(code: i32) -> bool {
+    !WITHOUT_DWELL.contains(&code)
+}
+
 /// Cycles of live tools: their settings, Fanuc's numbers on a lathe, along X or not, and what
 /// they do. A drilling cycle with pecks is a matter of a parameter.
 const LIVE_CYCLES: &[(&str, Option<i32>, bool, CycleKind)] = &[
@@ -184,7 +191,8 @@ impl Functions {
                 continue;
             }
             any = true;
-            self.add(Some(code), Function::Cycle(standard(code).map_or(*kind, |row| row.1)));
+            let kind = standard(code).map_or(*kind, |row| row.1);
+            self.add(Some(code), Function::Cycle(kind, dwells(code)));
         }
         if !any {
             return;
@@ -192,11 +200,11 @@ impl Functions {
         self.add(settings.code("cycle.off_code"), Function::CycleOff);
         for (key, kind) in RIGID_TAPS {
             if let Some(tenths) = settings.code(key).filter(|code| *code >= 0) {
-                self.0.entry(i64::from(tenths)).or_insert(Function::Cycle(kind));
+                self.0.entry(i64::from(tenths)).or_insert(Function::Cycle(kind, true));
             }
         }
         for (code, kind) in STANDARD_CYCLES {
-            self.add(Some(*code), Function::Cycle(*kind));
+            self.add(Some(*code), Function::Cycle(*kind, dwells(*code)));
         }
         for (key, initial) in
             [("cycle.return_initial_code", true), ("cycle.return_clear_code", false)]

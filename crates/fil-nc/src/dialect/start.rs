@@ -96,7 +96,9 @@ impl Functions {
             StartMode::Plane => (0..3).filter(|normal| has(Function::Plane(*normal))).count() > 1,
             StartMode::ReturnLevel => {
                 let returns = [true, false].map(|initial| has(Function::Return { initial }));
-                returns == [true; 2] && has(Function::Cycle(CycleKind::Drill))
+                let drills =
+                    [true, false].map(|dwells| has(Function::Cycle(CycleKind::Drill, dwells)));
+                returns == [true; 2] && drills.contains(&true)
             }
             StartMode::Surface => has(Function::Surface(true)),
             StartMode::Diameter => false,

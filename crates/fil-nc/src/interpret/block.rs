@@ -144,7 +144,7 @@ impl State<'_> {
             _ => {}
         }
         match self.take_motion(words)? {
-            Some(Function::Cycle(kind)) => return self.begin_cycle(kind, words),
+            Some(Function::Cycle(kind, dwells)) => return self.begin_cycle(kind, dwells, words),
             Some(Function::LiveCycle { side, kind }) => {
                 return self.begin_live_cycle(side, kind, words);
             }
@@ -189,10 +189,10 @@ impl State<'_> {
             self.pass = None;
         }
         match cycle {
-            Some(Function::Cycle(_) | Function::LiveCycle { .. }) if motion.is_some() => {
+            Some(Function::Cycle(..) | Function::LiveCycle { .. }) if motion.is_some() => {
                 Err(Fault::new(NcCode::Twice, "a motion and a cycle in one block"))
             }
-            Some(Function::Cycle(_) | Function::LiveCycle { .. }) => {
+            Some(Function::Cycle(..) | Function::LiveCycle { .. }) => {
                 self.motion = None;
                 self.pass = None;
                 Ok(cycle)

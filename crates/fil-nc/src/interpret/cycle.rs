@@ -33,6 +33,8 @@ pub(super) struct Cycle {
     pub(super) clear: Option<f64>,
     pub(super) step: Option<f64>,
     pub(super) dwell: Option<f64>,
+    /// Its code takes a dwell; others pass over it.
+    pub(super) dwells: bool,
 }
 
 /// A cycle whose levels are all there.
@@ -47,7 +49,8 @@ impl Cycle {
     /// A cycle of another family, whose levels its own file follows.
     pub(super) fn of_hole(kind: CycleKind, initial: f64, initial_known: bool) -> Self {
         let (bottom, clear, step, dwell) = (None, None, None, None);
-        Cycle { kind, live: None, initial, initial_known, bottom, clear, step, dwell }
+        let dwells = true;
+        Cycle { kind, live: None, initial, initial_known, bottom, clear, step, dwell, dwells }
     }
 
     /// Its holes are made in pecks.
@@ -64,7 +67,12 @@ impl Cycle {
 
 impl State<'_> {
     /// A block with a cycle's code: the cycle and its first hole.
-    pub(super) fn begin_cycle(&mut self, kind: CycleKind, words: &mut Words) -> Result<(), Fault> {
+    pub(super) fn begin_cycle(
+        &mut self,
+        kind: CycleKind,
+        dwells: bool,
+        words: &mut Words,
+    ) -> Result<(), Fault> {
         let axis = self.plane;
         let fresh = Cycle {
             kind,
@@ -75,9 +83,10 @@ impl State<'_> {
             clear: None,
             step: None,
             dwell: None,
+            dwells,
         };
         self.cycle = Some(match self.cycle {
-            Some(before) => Cycle { kind, ..before },
+            Some(before) => Cycle { kind, dwells, ..before },
             None => fresh,
         });
         self.hole(words)
@@ -175,7 +184,7 @@ impl State<'_> {
 
     /// What happens at the bottom, and the way out.
     fn leave(&mut self, cycle: &Cycle, hole: Hole) -> Result<(), Fault> {
-        if let Some(seconds) = cycle.dwell.filter(|seconds| *seconds > 0.0) {
+        if let Some(seconds) = cycle.dwell.filter(|seconds| cycle.dwells && *seconds > 0.0) {
             self.events.push(Event::Dwell { line: self.line, seconds: Some(seconds), turns: None });
         }
         let turning = self.modes.spindle;

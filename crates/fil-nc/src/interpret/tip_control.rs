@@ -103,7 +103,7 @@ impl State<'_> {
             let what = match function {
                 Function::Arc { .. } => "an arc",
                 Function::Thread | Function::VaryingThread => "a thread",
-                Function::Cycle(_) | Function::LiveCycle { .. } => "a cycle",
+                Function::Cycle(..) | Function::LiveCycle { .. } => "a cycle",
                 Function::Plane(normal) if normal != self.plane => "another plane",
                 Function::Fixture(code) if self.moves_fixture(code) => "another work offset",
                 Function::Units { metric } if metric != self.metric => "another unit",

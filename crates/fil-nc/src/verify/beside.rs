@@ -127,7 +127,7 @@ impl<C: Steps> Walk<'_, C> {
             Effect::Words | Effect::WordsOrOffset | Effect::AnyWords => {
                 "what it writes was not compared"
             }
-            Effect::Path => {
+            Effect::Path | Effect::Doubtful(_) => {
                 "the CL file does not say what path it makes; nothing after it was compared"
             }
         };
@@ -138,10 +138,15 @@ impl<C: Steps> Walk<'_, C> {
             let next = self.nc.line(self.next).unwrap_or(u32::MAX - 1);
             self.user_lines = [self.last_line(), next];
         }
-        if matches!(effect, Effect::AnyWords | Effect::Path) {
+        let is_over = matches!(effect, Effect::Path | Effect::Doubtful(_));
+        if is_over || effect == Effect::AnyWords {
             self.auxiliaries.open(self.last_line());
         }
-        self.over |= effect == Effect::Path;
+        self.over |= is_over;
+        if let Effect::Doubtful(kind) = effect {
+            let line = self.next_line();
+            self.find(kind, Some(cl_line), Some(line).filter(|line| *line > 0), what.to_string());
+        }
     }
 
     /// Line of the last event that was passed.

@@ -166,6 +166,10 @@ impl<C: Steps> Walk<'_, C> {
         levels: Levels,
         turning: Spindle,
     ) -> Result<f64, (u32, String)> {
+        if hole.depth > 0.0 && levels.at[2] - levels.bottom <= self.slack.linear[2] {
+            let message = "the depth of the hole is less than the last digit".to_string();
+            return Err((self.next_line(), message));
+        }
         let rest = self.approach(cl_line, hole, levels)?;
         // The last peck, as the tape has it.
         let mut reached: Option<f64> = None;

@@ -72,7 +72,10 @@ impl Expected {
             match (word.name.as_str(), &word.value) {
                 ("T", Some(_)) => self.offset.set(None, Due::Now),
                 ("D", Some(Value::Number(0.0))) => self.give_length_up(),
-                ("D", Some(Value::Number(edge))) => self.offset.set(Some(*edge as u32), Due::Now),
+                ("D", Some(Value::Number(edge))) => {
+                    self.loaded_offset = None;
+                    self.offset.set(Some(*edge as u32), Due::Now);
+                }
                 ("LIMS", Some(Value::Number(limit))) => self.speed_limit = Some(Some(*limit)),
                 (name, Some(_)) if name.starts_with("SPOS") => self.insert_stop(),
                 ("G", Some(Value::Number(500.0))) => self.fixture = Some(Some(500)),

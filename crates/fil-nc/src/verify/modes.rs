@@ -220,7 +220,10 @@ impl Expected {
                 self.fixture = Some(Some(*code));
                 self.asks_fixture = true;
             }
-            Wanted::Unknown { effect: Effect::AnyWords | Effect::Path, .. } => {
+            Wanted::Unknown {
+                effect: Effect::AnyWords | Effect::Path | Effect::Doubtful(_),
+                ..
+            } => {
                 (self.fixture, self.speed_limit, self.range) = (None, None, None);
                 self.has_speed = true;
             }

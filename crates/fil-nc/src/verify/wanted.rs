@@ -3,6 +3,7 @@
 use fil_machine::cycle_kind::CycleKind;
 use nalgebra::{Point3, Vector3};
 
+use super::report::FindingKind;
 use crate::forward::Pose;
 use crate::motion::{Compensation, Rate, Speed, Spindle};
 
@@ -183,6 +184,8 @@ pub enum Effect {
     AnyWords,
     /// The path from here on.
     Path,
+    /// The same, of a statement that no reading makes certain: no program for it is right.
+    Doubtful(FindingKind),
 }
 
 /// A range of spindle speeds.

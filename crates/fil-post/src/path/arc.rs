@@ -6,7 +6,7 @@ use fil_machine::axes::Position;
 use fil_machine::locations::{
     self as loc, CircleCenter, CircleCorrection, CircleCutcomPlane, CircleFullCircle,
 };
-use fil_machine::modes::Plane;
+use fil_machine::modes::{INCH, Plane};
 use nalgebra::{Point3, Vector3};
 
 use super::long_arc::{self, Parts};
@@ -23,6 +23,10 @@ const RADIUS_TOLERANCE: f64 = 1e-3;
 
 /// End and start of an arc nearer than this make a full circle, mm or inch.
 const SAME_POINT: f64 = 1e-6;
+
+/// End and start of an arc nearer than this, and farther than that, may be meant as one point: CL
+/// files have three digits and more. In mm.
+const NEARLY_SAME: f64 = 1e-3;
 
 /// An arc whose axis is less than this, as a cosine, from one of the machine is near its
 /// plane.
@@ -94,6 +98,24 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         // An arc of a few last digits: as lines it is within rounding.
         long_arc::as_lines(post, arc, start, sweep, target)
     }
+}
+
+/// Refuses an arc whose end is its start but for a rounding: one a hair past it would be no motion
+/// at all, and one a hair before it a full turn. In real CL files full circles end exactly where they
+/// begin, and no arc ends nearer.
+///
+/// # Errors
+/// It ends there, and TIMES does not say how many turns it makes.
+pub(super) fn refuse_nearly_full(post: &Post, arc: &Arc, end: Target) -> Result<()> {
+    let Some(start) = post.path.point.filter(|_| arc.turns == 0.0) else { return Ok(()) };
+    let [from, to] = [start, end.point].map(|point| flat(arc, point));
+    let apart = (from - to).norm();
+    let near = if post.control.is_metric() { NEARLY_SAME } else { NEARLY_SAME / INCH };
+    if apart < SAME_POINT || apart >= near || 2.0 * from.norm() <= near {
+        return Ok(());
+    }
+    PostCode::ArcNearlyFull
+        .err(format!("the end lies {apart:.5} from the start: a full turn, or none"))
 }
 
 /// Refuses an arc as lines whose first line would not begin on it.

@@ -4,7 +4,7 @@ use fil_diag::Result;
 use fil_machine::locations as loc;
 
 use super::arc::flat;
-use super::{linear, linearization};
+use super::{Transformation, linear, linearization};
 use crate::errors::PostCode;
 use crate::operation::{Arc, MotionKind, Target};
 use crate::post::Post;
@@ -107,6 +107,9 @@ impl Chords {
             let step = 2.0 * libm::acos((1.0 - tolerance / radius).clamp(-1.0, 1.0)).to_degrees();
             (self.sweep / step.max(FINEST)).ceil().max(1.0) as u32
         };
+        // Scales of TRANS draw the heights of chords out.
+        let stretch = post.path.transformation.as_ref().map_or(1.0, Transformation::stretch);
+        let chord = chord / stretch;
         let allowed = linearization::tolerance(post)?;
         match allowed.filter(|_| self.axes[0] != self.axes[1]) {
             Some(allowed) => {

@@ -64,6 +64,8 @@ pub struct Cycle {
     pub feed: CycleFeed,
     /// The feed is that of FEDRAT, and not of the CYCLE itself.
     pub feed_of_fedrat: bool,
+    /// Turns of the spindle at the first hole of a tap at a feed a minute, whose lead hangs on them.
+    pub turns: Option<f64>,
     /// A tap in step with the spindle (HIGH), with its code where the machine has one.
     pub rigid: bool,
     /// Level of the tool before the cycle along the drilling axis, machine

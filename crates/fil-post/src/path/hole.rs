@@ -2,13 +2,15 @@
 //! control's cycle or single moves.
 
 use fil_diag::Result;
+use fil_machine::Letter;
 use fil_machine::axes::{AXES, AxisSet, Position};
 use fil_machine::locations::{
     self as loc, ControlFamily, CycleMultax, CycleMultaxAny, CycleMultaxXy, CycleMultaxYz,
     CycleMultaxZx, CycleReturnCodes,
 };
+use fil_machine::modes::FeedMode;
 
-use super::cycle::{Cycle, CycleKind, Hole};
+use super::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use super::{Since, expand, frame, mill_turn, rapid, rapid_turn, rotary, scaled_lead, tip_hole};
 use crate::control::place::refuse_unknown;
 use crate::control::sinumerik::live_tap;
@@ -19,7 +21,7 @@ use crate::control::word_address::spindle;
 use crate::control::{Control, family};
 use crate::control_state::Place;
 use crate::errors::PostCode;
-use crate::operation::Target;
+use crate::operation::{SpindleSpeed, Target};
 use crate::post::Post;
 
 /// Differences below this count as none, mm or inch.
@@ -59,7 +61,9 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     if spindle::may_stand_behind_stop(&post.control) {
         post.warn(PostCode::SpindleStands, format!("CYCLE {}", spindle::BEHIND_STOP));
     }
+    refuse_scaled(post)?;
     if post.writes_tip() {
+        refuse_less_than_a_digit(&post.control, cycle)?;
         return tip_hole::hole(post, cycle, target);
     }
     if post.control.tables.frame_output && frame::turn_to(post, target, false)? {
@@ -69,8 +73,10 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     let (position, mut hole) = locate(post, cycle, target)?;
     refuse_beside_the_axis(&post.control, &position, &hole)?;
     warn_of_surface_speed(post);
+    refuse_without_depth(&post.control, cycle, &position, &hole)?;
     if cycle.kind == CycleKind::Tap {
         scaled_lead::refuse(&post.control, &[hole.along], PostCode::CycleForm)?;
+        refuse_another_lead(&post.control, cycle)?;
     }
     post.path.in_cut = false;
     post.path.arrive(target);
@@ -109,6 +115,60 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         expand::hole(&mut post.control, cycle, &at, &hole)?;
     }
     words::stands_at(&mut post.control, hole.along, hole.rest())
+}
+
+/// Refuses a hole where TRANS makes lengths longer or shorter.
+fn refuse_scaled(post: &Post) -> Result<()> {
+    match &post.path.transformation {
+        Some(trans) if !trans.is_rigid() => PostCode::CycleForm.err_with(
+            "CYCLE under a TRANS that scales: which of its lengths are scaled nobody knows",
+            "Let the CAM system scale the holes, or write them by GOTO.",
+        ),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses a hole along a tool that may lean whose depth is less than half a last digit.
+fn refuse_less_than_a_digit(control: &Control, cycle: &Cycle) -> Result<()> {
+    let is_none = cycle.depth > 0.0 && cycle.depth < control.tables.axis(2).resolution() / 2.0;
+    if is_none { no_depth(cycle, control.tables.axis(2).letter) } else { Ok(()) }
+}
+
+fn no_depth(cycle: &Cycle, letter: Letter) -> Result<()> {
+    PostCode::CycleForm.err(format!("DEPTH {} is nothing at the digits of {letter}", cycle.depth))
+}
+
+/// Refuses a hole whose bottom is its surface to the last digit of the tape: the control would drill
+/// none, or alarm.
+fn refuse_without_depth(
+    control: &Control,
+    cycle: &Cycle,
+    surface: &Position,
+    hole: &Hole,
+) -> Result<()> {
+    let axis = control.tables.axis(hole.along);
+    let is_none = axis.scaled(surface[hole.along])? == axis.scaled(hole.bottom)?;
+    if cycle.depth > 0.0 && is_none { no_depth(cycle, axis.letter) } else { Ok(()) }
+}
+
+/// Refuses a tap at a feed a minute behind another speed of the spindle: its lead would be another
+/// one than that of the holes before.
+fn refuse_another_lead(control: &Control, cycle: &mut Cycle) -> Result<()> {
+    let CycleFeed::Feed(feed) = cycle.feed else { return Ok(()) };
+    let Some(SpindleSpeed::Revolutions(turns)) = control.speed else { return Ok(()) };
+    if feed.mode != FeedMode::PerMinute {
+        return Ok(());
+    }
+    match cycle.turns.replace(turns) {
+        Some(before) if before != turns => PostCode::CycleForm.err_with(
+            format!(
+                "the spindle turns at {turns} where the holes before were tapped at {before}: at the \
+                 feed of CYCLE/TAP the lead would be another one"
+            ),
+            "Give CYCLE/TAP anew behind SPINDL, or its lead by MMPR, IPR or TPI.",
+        ),
+        _ => Ok(()),
+    }
 }
 
 /// Warns of the rapid motions of a cycle's block that turn the machine from hole to hole with the

@@ -304,6 +304,7 @@ pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
     match operation {
         Operation::Linear(target, kind) => linear::carry_out(post, &target, kind),
         Operation::Arc(arc, target) => {
+            arc::refuse_nearly_full(post, &arc, target)?;
             if post.control.tables.mills() {
                 mill_turn::before_arc(post, &arc, target)?;
             }

@@ -36,6 +36,17 @@ impl Transformation {
         (linear.transpose() * linear - Matrix3::identity()).amax() < RIGID
     }
 
+    /// How many times longer it makes a length at the most; 1 where it keeps lengths.
+    pub fn stretch(&self) -> f64 {
+        if self.is_rigid() {
+            return 1.0;
+        }
+        let linear = self.linear();
+        let squares = linear.transpose() * linear;
+        let sums = squares.row_iter().map(|row| row.iter().map(|part| part.abs()).sum::<f64>());
+        sums.fold(0.0, f64::max).sqrt()
+    }
+
     /// True for a mirror image.
     pub fn mirrors(&self) -> bool {
         self.linear().determinant() < 0.0

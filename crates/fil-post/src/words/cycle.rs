@@ -52,6 +52,8 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     }
     let cycle = read(post, items)?;
     items.deny_rest()?;
+    // RAPID right before it is of the way to its first hole, which a cycle makes at rapid.
+    post.path.rapid = None;
     cycle::replace(post, Some(cycle))
 }
 
@@ -88,6 +90,7 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         dwell: dwell.or(usual_dwell).unwrap_or(0.0),
         feed,
         feed_of_fedrat: own_feed.is_none(),
+        turns: None,
         rigid,
         initial: None,
         above: None,
@@ -197,6 +200,7 @@ pub fn take_feed(post: &mut Post) -> Result<()> {
         && !cycle.feed.is_as_fast_as(&feed)
     {
         cycle.feed = feed;
+        cycle.turns = None;
         cycle.in_force = None;
     }
     Ok(())

@@ -12,8 +12,11 @@ use crate::dispatch::checked_axis;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{MotionKind, Operation, Target};
-use crate::path::{carry_out, linear, thread};
+use crate::path::{Since, carry_out, linear, thread};
 use crate::post::Post;
+
+/// Levels nearer than this are one level, mm or inch.
+const SAME_LEVEL: f64 = 1e-6;
 
 /// Moves to the point; ends an arc or drills a hole when CIRCLE or CYCLE ask for it.
 ///
@@ -39,10 +42,35 @@ pub fn handle(post: &mut Post, target: Target) -> Result<()> {
 /// All that the hole or the motion refuses.
 #[inline]
 pub fn point(post: &mut Post, target: Target) -> Result<()> {
-    match drills(post) {
-        true => carry_out(post, Operation::Hole(target)),
-        false => straight(post, target),
+    if drills(post) {
+        return carry_out(post, Operation::Hole(target));
     }
+    if let Some(clear) = post.path.cycle.as_ref().map(|cycle| cycle.clear) {
+        rapid_between_holes(post, target, clear)?;
+    }
+    straight(post, target)
+}
+
+/// Says that a RAPID in a cycle in force drills no hole.
+///
+/// # Errors
+/// It goes down to where the tool would be nearer to the last hole than CLEAR, or lower than it stands
+/// before the first one: nobody knows whether that is a hole.
+#[cold]
+fn rapid_between_holes(post: &mut Post, target: Target, clear: f64) -> Result<()> {
+    let least = if post.path.since == Since::Hole { clear } else { 0.0 };
+    let above = |from: Point3<f64>| (target.point - from).dot(&target.axis.normalize());
+    let is_below = post.path.point.is_some_and(|from| above(from) < least - SAME_LEVEL);
+    if is_below && post.path.since != Since::ToolChange {
+        return PostCode::CycleForm.err_with(
+            "RAPID in a cycle leads below the level over the holes: a way to a hole, or a hole",
+            "Leave RAPID out where the point is a hole, the cycle goes there at rapid; end the cycle \
+             by CYCLE / OFF before it where it is none.",
+        );
+    }
+    let message = "RAPID in a cycle: the tool goes there at rapid, and no hole is drilled";
+    post.warn(PostCode::IgnoredPart, message.to_string());
+    Ok(())
 }
 
 /// The next point is a hole of the cycle in force.

@@ -47,6 +47,8 @@ impl State {
         let tapped = self.lead(record).filter(|_| kind == CycleKind::Tap && record.has(w::TPI));
         let rate = tapped.map(Rate::PerTurn).or(rate);
         let begins = self.cycle.is_none();
+        // A RAPID that waits is that of the way to the first hole.
+        self.rapid = false;
         let rigid = kind == CycleKind::Tap && record.has(w::HIGH);
         self.cycle = Some(Cycle {
             kind,
@@ -60,6 +62,7 @@ impl State {
             step: number(&[w::STEP, w::SUBPECK, w::INCR]).filter(|_| kind.pecks()),
             dwell: record.number_after(w::DWELL),
             rate: rate.or(self.rate),
+            turns: None,
             has_own_rate: rate.is_some(),
             rigid,
         });

@@ -30,7 +30,7 @@ use super::statements::{
 use super::wanted::{Effect, End, Step, Wanted};
 pub use frame_words::FrameWords;
 
-use crate::motion::{INCH, Rate};
+use crate::motion::{INCH, Rate, Speed};
 use named_frame::NamedFrames;
 use skip::Opskip;
 use tool_names::ToolNames;
@@ -53,6 +53,8 @@ struct Cycle {
     step: Option<f64>,
     dwell: Option<f64>,
     rate: Option<Rate>,
+    /// Turns of the spindle at the first hole of a tap.
+    turns: Option<f64>,
     /// The rate is of the CYCLE itself, and not of FEDRAT.
     has_own_rate: bool,
     rigid: bool,
@@ -84,6 +86,8 @@ struct State {
     thread: Option<Rate>,
     /// The lead of PITCH, for a thread that names none.
     pitch: Option<Rate>,
+    /// Turns of the spindle that SPINDL has given last.
+    turns: Option<f64>,
     /// The last SPINDL spoke of the second spindle.
     counts_side: bool,
     /// How far from the crest the tool goes back from a thread that does not say it, mm.
@@ -137,6 +141,7 @@ impl<'r> ClPath<'r> {
                 multax: false,
                 rapid: false,
                 rate: None,
+                turns: None,
                 thread: None,
                 pitch: None,
                 counts_side: false,
@@ -323,6 +328,7 @@ impl State {
                 self.rate = numbers(record).first().map(|value| self.rate_of(record, *value));
                 if let Some(cycle) = self.cycle.as_mut().filter(|cycle| !cycle.has_own_rate) {
                     cycle.rate = self.rate;
+                    cycle.turns = None;
                 }
                 self.end_thread();
                 Vec::new()
@@ -346,7 +352,13 @@ impl State {
             }
             w::SPINDL => {
                 self.counts_side = record.has(w::SIDE);
-                spindle(record)
+                let wanted = spindle(record);
+                let speed = wanted.iter().find_map(|wanted| match wanted {
+                    Wanted::Speed(speed) => Some(*speed),
+                    _ => None,
+                });
+                self.turns = speed.map_or(self.turns, Speed::turns);
+                wanted
             }
             w::COOLNT => coolant(record).map_or_else(|| unknown(Effect::Words), |kind| vec![kind]),
             w::CUTCOM => {

@@ -2,10 +2,13 @@
 
 use fil_cl::record::motion;
 use fil_cl::{Record, Vocabulary};
+use fil_machine::cycle_kind::CycleKind;
 use nalgebra::{Point3, Vector3};
 
 use super::{Cycle, Matrix, State, Waiting};
 use crate::forward::Pose;
+use crate::motion::Rate;
+use crate::verify::report::FindingKind;
 use crate::verify::statements::{numbers, statement};
 use crate::verify::wanted::{Arc, Effect, Hole, Wanted};
 
@@ -47,6 +50,17 @@ impl State {
             (None, Some(cycle)) if !self.rapid => {
                 self.point = Some(point);
                 self.axis = axis;
+                if !self.keeps_lengths() {
+                    let what = "a hole in a frame that scales its lengths".to_string();
+                    let effect = Effect::Doubtful(FindingKind::Cycle);
+                    return Some(Wanted::Unknown { what, effect });
+                }
+                if self.taps_another_lead() {
+                    let what = "a hole of CYCLE/TAP at another speed than the one before it, whose \
+                                lead is another one";
+                    let effect = Effect::Doubtful(FindingKind::Thread);
+                    return Some(Wanted::Unknown { what: what.to_string(), effect });
+                }
                 Wanted::Hole(Box::new(self.hole(&cycle, self.pose(point, axis))))
             }
             _ => self.line_to(point, axis),
@@ -73,6 +87,14 @@ impl State {
         }
     }
 
+    /// A tap at a feed a minute comes at another speed of the spindle than the first hole of its
+    /// cycle, so that its lead is another one.
+    fn taps_another_lead(&mut self) -> bool {
+        let (Some(cycle), Some(turns)) = (&mut self.cycle, self.turns) else { return false };
+        let hangs = cycle.kind == CycleKind::Tap && matches!(cycle.rate, Some(Rate::PerMinute(_)));
+        hangs && cycle.turns.replace(turns).is_some_and(|before| before != turns)
+    }
+
     fn hole(&self, cycle: &Cycle, start: Pose) -> Hole {
         let unit = self.unit();
         let mm = |length: Option<f64>| length.map(|length| length * unit);
@@ -93,10 +115,7 @@ impl State {
     /// full turns besides. In a frame that keeps no circles it is not followed.
     fn arc_to(&mut self, waiting: &Waiting, end: Point3<f64>, axis: Vector3<f64>) -> Wanted {
         self.rapid = false;
-        let keeps_circles = self.matrix.as_ref().is_none_or(|matrix| {
-            let turn = matrix.rows.fixed_columns::<3>(0).into_owned();
-            (turn.transpose() * turn - nalgebra::Matrix3::identity()).amax() < 1e-6
-        });
+        let keeps_circles = self.scale().is_some();
         let normal = Vector3::from(waiting.circle.axis);
         let (Some(start), Some(normal)) = (self.point, normal.try_normalize(1e-9)) else {
             return Wanted::Unknown { what: "CIRCLE".to_string(), effect: Effect::Path };
@@ -112,10 +131,28 @@ impl State {
             end: Pose { tip: end, axis },
             sweep: 0.0,
         };
+        if is_full_or_none(&bare, waiting.turns, CLOSES / self.unit()) {
+            let what = "CIRCLE whose end is nearly its start, a full turn or none".to_string();
+            return Wanted::Unknown { what, effect: Effect::Doubtful(FindingKind::Arc) };
+        }
         let sweep = full_sweep(&bare, waiting.turns);
         self.point = Some(end);
         self.axis = axis;
         Wanted::Arc(Box::new(self.in_frame(&Arc { sweep, ..bare })), self.rate)
+    }
+
+    /// How many times longer TRANS makes all lengths; `None` where not all alike.
+    fn scale(&self) -> Option<f64> {
+        let Some(matrix) = &self.matrix else { return Some(1.0) };
+        let turn = matrix.rows.fixed_columns::<3>(0).into_owned();
+        let (squares, scale) = (turn.transpose() * turn, turn.column(0).norm_squared());
+        let off = (squares - nalgebra::Matrix3::identity() * scale).amax();
+        (off < 1e-6 * scale).then(|| scale.sqrt())
+    }
+
+    /// TRANS makes no length of a hole another one.
+    fn keeps_lengths(&self) -> bool {
+        self.scale().is_some_and(|scale| (scale - 1.0).abs() < 1e-6)
     }
 
     /// The arc as TRANS places it; a mirror turns its sense.
@@ -148,6 +185,14 @@ impl State {
         let axis = axis.try_normalize(1e-9).unwrap_or(axis);
         Pose { tip: Point3::from((point.coords + self.shift + self.along) * self.unit()), axis }
     }
+}
+
+/// The ends of an arc differ by no more than a rounding `within`, and it is larger than that: no
+/// reading of it is certain.
+fn is_full_or_none(arc: &Arc, turns: f64, within: f64) -> bool {
+    let out = arc.spoke(arc.start);
+    let apart = (out - arc.spoke(arc.end.tip)).norm();
+    turns == 0.0 && (SAME_POINT..within).contains(&apart) && 2.0 * out.norm() > within
 }
 
 /// Degrees of an arc from its start to its end, with its full turns.

@@ -113,6 +113,7 @@ pub fn learn(control: &mut Control, text: &str) {
         if !is_number && !take(control, item, &mut words) {
             control.state.forget();
             control.sinumerik.edge = None;
+            control.state.tool_offset = None;
             control.sinumerik.clockwise = None;
             return;
         }
@@ -249,6 +250,7 @@ fn edge(control: &mut Control, value: f64) {
         control.state.lengths_said += 1;
     }
     control.sinumerik.edge = edge;
+    control.state.tool_offset = edge;
     control.state.calls_length(edge != Some(0));
 }
 

@@ -18,7 +18,7 @@ const EDGES: i64 = 9;
 /// # Errors
 /// A tool that does not fit; an edge that no tool has.
 pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
-    let mut edge = if wanted.offset_given { wanted.offset } else { 1 };
+    let mut edge = edge_of(&wanted);
     if !(1..=EDGES).contains(&edge) || edge > 1 && own_offsets::of_tool(control) {
         let message = format!(
             "LOADTL asks for offset {edge}: D names one of the cutting edges 1 to {EDGES} of the \
@@ -35,9 +35,15 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     })?;
     control.state.doubt_axes();
     control.state.has_tool(Some(wanted.tool));
+    control.state.tool_offset = Some(edge);
     control.sinumerik.edge = Some(edge);
     control.state.calls_length(true);
     Ok(())
+}
+
+/// The cutting edge that a change asks for.
+pub fn edge_of(wanted: &ToolChange) -> i64 {
+    if wanted.offset_given { wanted.offset } else { 1 }
 }
 
 /// Names the next tool, on a machine that prepares it.

@@ -22,7 +22,7 @@ use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 /// The code of a cycle; `None` where the machine has none that does all of it, so that
 /// it must be written as single moves.
 ///
-/// A dwell is lost in a cycle that takes none: G81, G73, G83 and G85 do not. Drilling
+/// A dwell is lost in a cycle that takes none: G81, G73, G83, G85 and G86 do not. Drilling
 /// with a dwell is countersinking (G82).
 pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
     if cycle.kind == CycleKind::Tap {
@@ -99,12 +99,14 @@ pub fn no_tap(control: &Control) -> &'static str {
     }
 }
 
-/// Cycles of the usual controls that take no dwell.
-const WITHOUT_DWELL: [FunctionCode; 4] = [
+/// Cycles of the usual controls that take no dwell. G86 of Mitsubishi and LinuxCNC has one, that of
+/// Fanuc and Haas passes over P.
+const WITHOUT_DWELL: [FunctionCode; 5] = [
     FunctionCode::whole(73),
     FunctionCode::whole(81),
     FunctionCode::whole(83),
     FunctionCode::whole(85),
+    FunctionCode::whole(86),
 ];
 
 /// Writes the block of a hole: all words at the first one, later only what has

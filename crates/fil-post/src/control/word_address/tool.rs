@@ -7,7 +7,7 @@ use fil_machine::letters::{H, T};
 use fil_machine::locations::{self as loc, ControlFamily, ToolFormat};
 
 use super::motion::{self, Motion};
-use crate::control::{Control, length_plane};
+use crate::control::{Control, length_plane, sinumerik};
 use crate::errors::PostCode;
 use crate::operation::ToolChange;
 
@@ -30,8 +30,10 @@ pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
     }
     length_plane::before_length(control)?;
     let modal = control.commons.read(loc::TOOL_MODAL);
+    let is_edge = control.tables.family == ControlFamily::Sinumerik;
+    let offset = if is_edge { sinumerik::tool::edge_of(wanted) } else { wanted.offset };
     let stays =
-        control.state.tool == Some(wanted.tool) && control.state.tool_offset == Some(wanted.offset);
+        control.state.tool == Some(wanted.tool) && control.state.tool_offset == Some(offset);
     Ok(!modal || !stays)
 }
 
