@@ -257,6 +257,9 @@ impl<'s> Model<'s> {
             (None, None) => return self.out.unpredictable = true,
         };
         let machine = self.frame.apply(target);
+        if self.cycle.is_some() && self.at.is_none_or(|at| target[2] < at[2]) {
+            self.may_refuse("a rapid motion in a cycle that leads down");
+        }
         self.at = Some(target);
         self.is_left = false;
         if let Some(cycle) = &mut self.cycle {

@@ -23,6 +23,8 @@ const AXIS_OF_SINUMERIK: u32 = 70;
 #[derive(Clone, Debug)]
 pub(super) struct Expected {
     pub(super) tool: Option<u32>,
+    /// The change to it was left out: it is asked for where something moves alone.
+    tool_is_left_out: bool,
     /// The tool that LOADTL or a text named last.
     pub(super) loaded: Option<u32>,
     /// The offset that LOADTL named.
@@ -82,6 +84,7 @@ impl Expected {
     pub(super) fn new(settings: &Settings) -> Self {
         Expected {
             tool: None,
+            tool_is_left_out: false,
             loaded: None,
             loaded_offset: None,
             offset: Lag::new(None),
@@ -336,11 +339,18 @@ impl Expected {
     pub(super) fn change_tool(&mut self, tool: u32, offset: u32, settings: &Settings) {
         self.flush();
         self.again = Again::default();
+        self.tool_is_left_out = false;
         self.tool_moves(tool, offset, settings);
     }
 
-    /// The tool that moves from here on, whether it has been changed or that was left out.
-    pub(super) fn tool_moves(&mut self, tool: u32, offset: u32, settings: &Settings) {
+    /// A change to a tool was left out, which moves behind it all the same.
+    pub(super) fn leave_tool_out(&mut self, tool: u32, offset: u32, settings: &Settings) {
+        self.tool_moves(tool, offset, settings);
+        self.tool_is_left_out = true;
+    }
+
+    /// The tool that moves from here on.
+    fn tool_moves(&mut self, tool: u32, offset: u32, settings: &Settings) {
         self.tool = settings.calls_tools().then_some(tool);
         self.loaded = Some(tool);
         self.loaded_offset = Some(offset);

@@ -257,7 +257,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             }
             Wanted::ToolLeftOut { number, offset } => {
                 let offset = self.settings.tool_offset(*number, *offset);
-                self.modes.tool_moves(*number, offset, self.settings);
+                self.modes.leave_tool_out(*number, offset, self.settings);
             }
             Wanted::Dwell(seconds) => self.dwell(step.line, *seconds, None),
             Wanted::DwellTurns(turns) => {

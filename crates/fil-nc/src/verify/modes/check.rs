@@ -32,7 +32,9 @@ impl Expected {
         self.flush();
         let mut wrong = self.wrong(modes, Doing::Standing, slack);
         // A change may bring its own offset along; one that waits needs a motion.
-        wrong.retain(|(kind, _)| *kind != FindingKind::Tool || !(changes || self.offset_waits()));
+        wrong.retain(|(kind, _)| {
+            *kind != FindingKind::Tool || !(changes || self.offset_waits() || self.tool_is_left_out)
+        });
         if self.unfollowed {
             wrong.retain(|(kind, _)| matches!(kind, FindingKind::Tool | FindingKind::Compensation));
         }
