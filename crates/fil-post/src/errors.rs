@@ -216,6 +216,10 @@ fil_diag::codes! {
         CompensationAcross = 544, Error, "cutter compensation across the tool",
             "The tool does not lie square to the plane in which the control compensates it, so that the path would be shifted along the tool, into the part: a head leans it, a table has turned the plane that CUTCOM names, or the plane of the program is another one.",
             "Leave the plane out where the tool stands along Z of the control, name the plane that it is square to where a head has turned it, or let the CAM system compensate.";
+        /// A word that an edit takes out, or changes, and that can't be said again.
+        EditedWord = 545, Error, "an editing macro changes what the post goes on from",
+            "A macro (_OUTPTP, _MCDWT) or REPLAC takes a word out of a block or changes it. Most words are said again by the next block that needs them; this one can't be: what follows would be carried out as if it stood.",
+            "Let the macro leave the word as it is, or put another of its kind in its place; take the record with a FIL section where the program shall be without it.";
         /// A second frame in one file.
         OtherFrame = 549, Error, "the points may be of another frame",
             "CSYS, MSYS and their like name the frame of the points. Where a file names a second one, its points may be those of the part all through or those of the new frame.",

@@ -216,7 +216,9 @@ impl Functions {
     fn add_fixtures(&mut self, settings: &Settings) {
         let ends = [settings.code("fixture.min_code"), settings.code("fixture.max_code")];
         if let [Some(first), Some(last)] = ends {
-            for code in (first..=last).take(100) {
+            // Settings that begin below G54 make no offsets of what moves the zero by its words and
+            // of the frame of the machine.
+            for code in (first..=last).take(100).filter(|code| !matches!(code, 52 | 53)) {
                 self.add(Some(code), Function::Fixture(code.unsigned_abs()));
             }
         }

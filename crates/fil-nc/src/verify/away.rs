@@ -110,10 +110,14 @@ impl<C: Steps> Walk<'_, C> {
         }
         let Some(level) = self.settings.retract_level(self.metric) else { return };
         let slack = self.slack.linear[2];
-        if !self.is_in_cut && self.height.is_some_and(|stands| stands >= level - slack) {
+        // How high a Z of the part lies in the machine nobody knows.
+        let of_machine = self.settings.names_machine_positions();
+        let is_above = self.height.is_some_and(|stands| stands >= level - slack);
+        if !self.is_in_cut && is_above && !of_machine {
             return;
         }
         let place = match self.height {
+            Some(stands) if of_machine => format!("at Z{} of the part", short(stands)),
             Some(stands) => format!("at Z{}", short(stands)),
             None => "where Z has not been said since the last frame".to_string(),
         };

@@ -2,6 +2,8 @@
 //! that are left out because it has them.
 
 use fil_diag::Result;
+use fil_machine::locations as loc;
+use fil_machine::modes::FeedMode;
 use fil_machine::{FunctionCode, Letter, letters};
 
 use super::Control;
@@ -46,7 +48,8 @@ impl Control {
     }
 
     /// The words of these that the control does not have (POSTN/NORMAL): a position, F,
-    /// S or motion function that it has is left out, all else is written.
+    /// S or motion function that it has is left out, all else is written. Nothing is left out of
+    /// a block whose functions give its words another meaning: G4 X10, G53 Z0, G91 X10, G50 S2000.
     ///
     /// # Errors
     /// A value that does not fit its address.
@@ -55,13 +58,35 @@ impl Control {
         words: Vec<(Letter, f64, Cause)>,
     ) -> Result<Vec<(Letter, f64, Cause)>> {
         self.begin()?;
+        let of = |kind: Letter| {
+            let words = words.iter().filter(move |(letter, ..)| *letter == kind);
+            words.map(|(_, value, _)| FunctionCode::of_value(*value))
+        };
+        let is_plain = of(letters::G).all(|code| code.is_some_and(|code| self.only_moves(code)));
+        let speed_is_one = of(letters::M).all(|code| code.is_some_and(|code| self.turns(code)));
+        if !is_plain {
+            return Ok(words);
+        }
         let mut kept = Vec::with_capacity(words.len());
         for word in words {
-            if !self.has_word(word.0, word.1)? {
+            let is_speed = word.0 == letters::S;
+            if is_speed && !speed_is_one || !self.has_word(word.0, word.1)? {
                 kept.push(word);
             }
         }
         Ok(kept)
+    }
+
+    /// A function of a motion beside which positions, F and S are what they are anywhere: F of a
+    /// thread is its lead.
+    fn only_moves(&self, code: FunctionCode) -> bool {
+        loc::MOTION_CODES.iter().any(|at| self.code_if_any(*at) == Some(code))
+    }
+
+    /// A function that turns the spindle by the S of its block: S beside M19 or M29 is another word.
+    fn turns(&self, code: FunctionCode) -> bool {
+        let turning = [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE, loc::SPINDLE_DEFAULT_CODE];
+        turning.iter().any(|at| self.code_if_any(*at) == Some(code))
     }
 
     fn has_word(&self, letter: Letter, value: f64) -> Result<bool> {
@@ -74,6 +99,12 @@ impl Control {
             return Ok(is_motion && self.state.motion == code);
         }
         let Some(format) = self.tables.addresses.format(letter) else { return Ok(false) };
+        let is_time = letter == letters::F
+            && !matches!(self.state.feed_mode, Some(FeedMode::PerMinute | FeedMode::PerRevolution));
+        // U and W of many lathes are increments of X and Z.
+        if is_time || self.codes.moved_by(letter) != letter {
+            return Ok(false);
+        }
         if !STAYING.contains(&letter.byte()) {
             return Ok(false);
         }

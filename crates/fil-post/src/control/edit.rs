@@ -6,9 +6,10 @@ use fil_machine::Letter;
 use fil_machine::letters::{self, G, M, N};
 use fil_machine::locations::ControlFamily;
 
-use super::{Control, sinumerik, texts};
+use super::left_out::{Edit, Maker, Word};
+use super::{Control, sinumerik, speed_of_others, texts};
 use crate::cause::Cause;
-use crate::control_state::text_words;
+use crate::control_state::{TextWords, text, text_words};
 use crate::errors::PostCode;
 
 /// A word with its cause.
@@ -42,11 +43,10 @@ impl Control {
         if edits_words {
             let words = self.block.words(&self.tables.addresses);
             if let Some(edited) = self.edited_words(&words)? {
-                self.block.clear();
-                return self.put_words(&edited);
+                return self.put_edited(&plain(&words), &edited);
             }
         }
-        if family == ControlFamily::Sinumerik && self.tables.style.divides && self.is_crowded() {
+        if self.tables.style.divides && self.is_crowded() {
             return self.write_apart();
         }
         let start = self.tape.text.len();
@@ -55,12 +55,23 @@ impl Control {
         } else {
             self.tape.block(&self.block, &self.tables, &mut self.commons)?;
         }
-        if edits_lines && self.edit_line(start)? {
+        if edits_lines && self.edit_line(start, Maker::Post)? {
             self.block.clear();
             return Ok(());
         }
         self.state.learn_block(&self.block, &self.codes, &self.tables.addresses);
         self.block.clear();
+        Ok(())
+    }
+
+    /// Puts a block of the post on the tape as an editor has left it.
+    fn put_edited(&mut self, before: &[Word], edited: &[CausedWord]) -> Result<()> {
+        let after = plain(edited);
+        let edit = Edit { before, after: &after };
+        self.refuse_left_out(edit)?;
+        self.block.clear();
+        self.put_words(edited, Some(edit))?;
+        self.miss_left_out(edit);
         Ok(())
     }
 
@@ -110,7 +121,7 @@ impl Control {
     ///
     /// # Errors
     /// What the editor refuses, and a line that must not reach the tape.
-    pub(super) fn edit_line(&mut self, start: usize) -> Result<bool> {
+    pub(super) fn edit_line(&mut self, start: usize, maker: Maker) -> Result<bool> {
         let replaces = !self.tape.replaced.is_empty();
         if !(replaces || self.tables.style.edits_lines) || self.tape.text.len() == start {
             return Ok(false);
@@ -129,11 +140,47 @@ impl Control {
         if !before.contains('%') {
             texts::check(&after)?;
         }
+        let of = |line: &str| self.words_of_line(line);
+        let (made, left) = (of(&before), of(behind_new_skip_mark(&before, &after)));
+        let edit = Edit { before: &made, after: &left };
+        if maker == Maker::Post {
+            self.refuse_left_out(edit)?;
+        }
         self.tape.replace_last_line(start, &after, &self.tables)?;
         let known = self.before_others()?;
-        self.learn_edited(&before, &after);
-        self.refuse_changes(known)?;
+        let brings = edit.brings_functions();
+        match maker {
+            Maker::Post => {
+                self.learn_edited(&before, &after, maker);
+                self.miss_left_out(edit);
+            }
+            Maker::Words => self.learn_edited(&before, &after, maker),
+            Maker::Text => self.learn_line(&after),
+        }
+        if maker != Maker::Post || brings {
+            self.refuse_changes(known)?;
+        }
         Ok(true)
+    }
+
+    /// The words of a line as far as they can be read, its number and comments left out.
+    fn words_of_line(&self, line: &str) -> Vec<Word> {
+        match self.tables.family {
+            ControlFamily::Sinumerik => sinumerik::reader::readable_words(line),
+            _ => text::readable_words(line),
+        }
+    }
+
+    /// Learns from a line of others.
+    fn learn_line(&mut self, line: &str) {
+        match self.tables.family {
+            ControlFamily::Sinumerik => sinumerik::reader::learn(self, line),
+            _ => self.state.learn_text(line, &self.codes, self.unit),
+        }
+        if let Some(read) = text_words(line) {
+            let skipped = read.skipped || self.state.may_be_skipped();
+            speed_of_others::learn(self, &read.words, skipped);
+        }
     }
 
     /// Has the macro _MCDWT edit a line.
@@ -151,23 +198,29 @@ impl Control {
         Ok(())
     }
 
-    /// Learns from a line that was edited. Words that are the same in both are on the
+    /// Learns from a line of words that was edited. Words that are the same in both are on the
     /// tape as they were made; what else the line says is in doubt.
-    fn learn_edited(&mut self, before: &str, after: &str) {
+    fn learn_edited(&mut self, before: &str, after: &str, maker: Maker) {
         if self.tables.family == ControlFamily::Sinumerik {
-            return sinumerik::reader::learn(self, after);
+            return self.learn_line(after);
         }
         let (old, new) = match (text_words(before), text_words(after)) {
-            (Some(old), Some(new)) if !new.skipped => (old.words, new.words),
-            _ => return self.state.learn_text(after, &self.codes, self.unit),
+            (Some(old), Some(new)) if !new.skipped => (without_number(old), without_number(new)),
+            _ => return self.learn_line(after),
         };
-        let words: Vec<(Letter, f64)> =
-            new.iter().copied().filter(|(letter, _)| *letter != N).collect();
-        self.state.learn_words(&words, &self.codes);
+        let edit = Edit { before: &old, after: &new };
+        match maker {
+            Maker::Post => self.learn_left(edit),
+            _ => self.state.learn_words(&new, &self.codes),
+        }
+        if maker != Maker::Post || edit.changes_speed() {
+            let skipped = self.state.may_be_skipped();
+            speed_of_others::learn(self, &new, skipped);
+        }
         let differs = |word: &(Letter, f64), others: &[(Letter, f64)]| !others.contains(word);
         let changed = old.iter().filter(|word| differs(word, &new));
         let changed = changed.chain(new.iter().filter(|word| differs(word, &old)));
-        for (letter, _) in changed.filter(|(letter, _)| !matches!(*letter, G | M | N)) {
+        for (letter, _) in changed.filter(|(letter, _)| !matches!(*letter, G | M)) {
             self.learn_edited_word(*letter, new.iter().rev().find(|(other, _)| other == letter));
         }
     }
@@ -186,4 +239,18 @@ impl Control {
         let message = format!("{setting} is on, and no FIL file has a macro {name}");
         self.warnings.add(PostCode::NoEditMacro, message);
     }
+}
+
+fn plain(words: &[CausedWord]) -> Vec<Word> {
+    words.iter().map(|(letter, value, _)| (*letter, *value)).collect()
+}
+
+fn without_number(read: TextWords) -> Vec<Word> {
+    read.words.into_iter().filter(|(letter, _)| *letter != N).collect()
+}
+
+/// What is left of a line for certain: nothing of one that may be skipped, and could not before.
+fn behind_new_skip_mark<'l>(before: &str, after: &'l str) -> &'l str {
+    let may_be_skipped = |line: &str| line.trim_start().starts_with('/');
+    if may_be_skipped(after) && !may_be_skipped(before) { "" } else { after }
 }

@@ -13,6 +13,7 @@ mod edit;
 pub mod family;
 pub(crate) mod full_turn;
 pub mod klartext;
+mod left_out;
 pub mod length_plane;
 pub(crate) mod line;
 pub mod machine_frame;

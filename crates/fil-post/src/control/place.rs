@@ -88,7 +88,7 @@ impl Control {
             Length::Taken => "a text has taken the length of the tool off",
             Length::Ended => match self.state.called_offset {
                 Some(offset) => {
-                    self.waiting.length_offset = Some((offset, self.block.cause));
+                    self.await_length(Some((offset, self.block.cause)));
                     self.state.doubt(self.tables.axis(2).letter);
                     return Ok(());
                 }

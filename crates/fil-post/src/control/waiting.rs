@@ -2,12 +2,14 @@
 //! tool length.
 
 use fil_diag::Result;
+use fil_machine::Letter;
 use fil_machine::axes::AxisSet;
 use fil_machine::locations::{ControlFamily, Placement};
 
 use super::Control;
 use crate::block::Block;
 use crate::cause::Cause;
+use crate::control_state::Length;
 use crate::errors::PostCode;
 
 /// What words that wait command.
@@ -31,6 +33,8 @@ enum Due {
     Any,
     /// One that moves one of these axes.
     Along(AxisSet),
+    /// Any, in a block of their own before it.
+    BeforeAny,
 }
 
 /// Words that wait for a motion.
@@ -39,6 +43,8 @@ pub struct Waiting {
     words: Vec<(Function, Due, Block)>,
     /// Tool length offset to be called with the next Z motion, with its cause.
     pub length_offset: Option<(i64, Cause)>,
+    /// How often words or texts had named a length when it began to wait.
+    lengths_said: u32,
 }
 
 impl Waiting {
@@ -48,6 +54,18 @@ impl Waiting {
         self.words.is_empty() && self.length_offset.is_none()
     }
 
+    /// Words that were taken out of their block come before the next motion, in a block of their
+    /// own as they had; older ones of their function give way.
+    pub(super) fn owe(&mut self, function: Function, block: Block) {
+        self.put(function, Due::BeforeAny, block);
+    }
+
+    /// Keeps words; older ones of their function give way.
+    fn put(&mut self, function: Function, due: Due, block: Block) {
+        self.words.retain(|(waiting, ..)| *waiting != function);
+        self.words.push((function, due, block));
+    }
+
     /// True when words of this function wait.
     pub fn has(&self, function: Function) -> bool {
         self.words.iter().any(|(waiting, ..)| *waiting == function)
@@ -55,6 +73,36 @@ impl Waiting {
 }
 
 impl Control {
+    /// Has a tool length offset called with the next Z motion.
+    pub(crate) fn await_length(&mut self, offset: Option<(i64, Cause)>) {
+        self.waiting.length_offset = offset;
+        self.waiting.lengths_said = self.state.lengths_said;
+    }
+
+    /// Refuses words of others that move Z while the length of the tool waits for a motion of the
+    /// post: the tip would go there by the length of the tool before, or the spindle nose.
+    ///
+    /// # Errors
+    /// They do.
+    pub(super) fn refuse_without_length(&self, words: &[(Letter, f64)]) -> Result<()> {
+        let is_due = match self.state.length {
+            Length::Ended => true,
+            _ => self.waiting.length_offset.is_some(),
+        };
+        let is_named = self.waiting.length_offset.is_some()
+            && self.state.lengths_said != self.waiting.lengths_said;
+        let z = self.tables.axis(2).letter;
+        let moves_z = words.iter().any(|(letter, _)| self.codes.moved_by(*letter) == z);
+        if !is_due || is_named || !moves_z || !self.codes.moves_in_part(words) {
+            return Ok(());
+        }
+        PostCode::LengthTaken.err_with(
+            "a text moves Z while the length of the tool waits for the next motion of Z",
+            "Put the text behind the motion that calls the length, let it call the length itself \
+             (G43 H1), or go by RAPID and GOTO.",
+        )
+    }
+
     /// Writes the block under construction at once, or keeps its words for a
     /// motion to come. Words of the same function that still wait never share a
     /// block with it: those of spindle and coolant are written now, in their own
@@ -82,7 +130,7 @@ impl Control {
             Placement::NextZBlock => Due::Along(AxisSet::of(2)),
         };
         let block = self.block.take();
-        self.waiting.words.push((function, due, block));
+        self.waiting.put(function, due, block);
         Ok(())
     }
 
@@ -97,7 +145,9 @@ impl Control {
     }
 
     fn comes_with(&mut self, function: Function, motion: Due) {
-        for (_, due, _) in self.waiting.words.iter_mut().filter(|(of, ..)| *of == function) {
+        let waiting = self.waiting.words.iter_mut();
+        for (_, due, _) in waiting.filter(|(of, due, _)| *of == function && *due != Due::BeforeAny)
+        {
             *due = motion;
         }
     }
@@ -107,7 +157,7 @@ impl Control {
     fn is_due(&self, due: Due, turning: AxisSet) -> bool {
         let moves = |number| turning.has(number) || self.block_has(self.tables.axis(number).letter);
         match due {
-            Due::Any => true,
+            Due::Any | Due::BeforeAny => true,
             Due::Along(axes) => axes.numbers().any(moves),
         }
     }
@@ -172,14 +222,30 @@ impl Control {
     /// # Errors
     /// As [`Block::merge`].
     pub(crate) fn take_waiting(&mut self, turning: AxisSet) -> Result<()> {
+        self.write_owed()?;
         let words = std::mem::take(&mut self.waiting.words);
         // What is due is found before words are added that a motion could be taken from.
-        let (due, later): (Vec<_>, Vec<_>) =
-            words.into_iter().partition(|(_, due, _)| self.is_due(*due, turning));
+        let (due, later): (Vec<_>, Vec<_>) = words
+            .into_iter()
+            .partition(|(_, due, _)| *due != Due::BeforeAny && self.is_due(*due, turning));
         for (_, _, words) in &due {
             self.block.merge(words, &self.tables.addresses)?;
         }
         self.waiting.words = later;
+        Ok(())
+    }
+
+    /// Writes the words that were taken out of their blocks; taken out again, they wait on.
+    fn write_owed(&mut self) -> Result<()> {
+        let words = std::mem::take(&mut self.waiting.words);
+        let (owed, others): (Vec<_>, Vec<_>) =
+            words.into_iter().partition(|(_, due, _)| *due == Due::BeforeAny);
+        self.waiting.words = others;
+        for (_, _, words) in owed {
+            let block = std::mem::replace(&mut self.block, words);
+            self.write_block()?;
+            self.block = block;
+        }
         Ok(())
     }
 

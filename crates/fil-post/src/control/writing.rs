@@ -7,6 +7,7 @@ use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::{Plane, Unit};
 use fil_machine::{FunctionCode, Letter};
 
+use super::left_out::{Edit, Maker};
 use super::word_address::modes;
 use super::{
     Compensation, Control, Function, family, klartext, length_plane, program, sinumerik,
@@ -87,16 +88,22 @@ impl Control {
         modes::leave_plane_of_its_own(self)?;
         let plain: Vec<(Letter, f64)> = words.iter().map(|word| (word.0, word.1)).collect();
         length_plane::before_others(self, &plain)?;
+        self.refuse_without_length(&plain)?;
         if self.tables.style.edits_words
             && let Some(edited) = self.edited_words(words)?
         {
-            return self.put_words(&edited);
+            return self.put_words(&edited, None);
         }
-        self.put_words(words)
+        self.put_words(words, None)
     }
 
-    /// Puts words on the tape; the control learns from them.
-    pub(super) fn put_words(&mut self, words: &[(Letter, f64, Cause)]) -> Result<()> {
+    /// Puts words on the tape; the control learns from them. `edit` is what was done to those of a
+    /// block of the post.
+    pub(super) fn put_words(
+        &mut self,
+        words: &[(Letter, f64, Cause)],
+        edit: Option<Edit<'_>>,
+    ) -> Result<()> {
         if words.is_empty() {
             return Ok(());
         }
@@ -107,20 +114,30 @@ impl Control {
         } else {
             self.tape.words(words, &self.tables, &mut self.commons)?;
         }
-        if self.edit_line(start)? {
+        let maker = if edit.is_some() { Maker::Post } else { Maker::Words };
+        if self.edit_line(start, maker)? {
             return Ok(());
         }
         let plain: Vec<(Letter, f64)> =
             words.iter().map(|(letter, value, _)| (*letter, *value)).collect();
-        self.state.learn_words(&plain, &self.codes);
+        match edit {
+            Some(edit) => self.learn_left(edit),
+            None => self.state.learn_words(&plain, &self.codes),
+        }
         if self.tables.family == ControlFamily::Sinumerik {
             sinumerik::reader::learn_words(self, words);
         }
-        let skipped = self.state.may_be_skipped();
-        speed_of_others::learn(self, &plain, skipped);
+        if edit.is_none_or(Edit::changes_speed) {
+            let skipped = self.state.may_be_skipped();
+            speed_of_others::learn(self, &plain, skipped);
+        }
         self.follow_feed_mode();
         self.take_plane_back(&before);
-        self.refuse_changes(before)
+        match edit {
+            // The post has done what it wanted.
+            Some(edit) if !edit.brings_functions() => Ok(()),
+            _ => self.refuse_changes(before),
+        }
     }
 
     /// Writes a text as a block; the control learns from it what it can read.
@@ -129,6 +146,18 @@ impl Control {
     /// As [`Tape::line`](crate::tape::Tape::line); a character that must not reach the tape; a block after
     /// the end of the program.
     pub fn write_text(&mut self, text: &str, numbered: bool) -> Result<()> {
+        self.write_text_of(text, numbered, Maker::Text)
+    }
+
+    /// The same for a text that the post has made: what it says can't be left out.
+    ///
+    /// # Errors
+    /// As [`Control::write_text`]; words that were edited out of it.
+    pub fn write_own_text(&mut self, text: &str) -> Result<()> {
+        self.write_text_of(text, true, Maker::Post)
+    }
+
+    fn write_text_of(&mut self, text: &str, numbered: bool, maker: Maker) -> Result<()> {
         self.begin()?;
         if texts::begins_program(text) {
             self.state.program_begins();
@@ -137,13 +166,20 @@ impl Control {
         modes::leave_plane_of_its_own(self)?;
         length_plane::before_text(self, text)?;
         texts::check(text)?;
+        if let (Some(read), Maker::Text) = (text::read(text), maker) {
+            self.refuse_without_length(&read.words)?;
+        }
         if self.tables.family == ControlFamily::Sinumerik {
             sinumerik::reader::refuse_other_diameters(self, text)?;
         }
         if self.tables.family != ControlFamily::WordAddress {
             family::refuse_brackets(text)?;
         }
-        if self.put_line(text, numbered)? {
+        let edited = match maker {
+            Maker::Post => self.put(text, numbered, maker)?,
+            _ => self.put_line(text, numbered)?,
+        };
+        if edited {
             return Ok(());
         }
         let mut before = self.before_others()?;
@@ -295,10 +331,13 @@ impl Control {
     /// Writes a line as it is; says whether it was edited, so that the control has learned
     /// from it.
     pub(super) fn put_line(&mut self, text: &str, numbered: bool) -> Result<bool> {
-        let Some(words) = self.behind_skip_mark(text) else { return self.put(text, numbered) };
+        let maker = Maker::Text;
+        let Some(words) = self.behind_skip_mark(text) else {
+            return self.put(text, numbered, maker);
+        };
         let outer = self.tape.skip;
         self.tape.skip = outer.or(Some(self.block.cause));
-        let edited = self.put(words, numbered);
+        let edited = self.put(words, numbered, maker);
         self.tape.skip = outer;
         edited
     }
@@ -312,7 +351,7 @@ impl Control {
         (begins && !words.starts_with(['N', 'n'])).then_some(words)
     }
 
-    fn put(&mut self, text: &str, numbered: bool) -> Result<bool> {
+    fn put(&mut self, text: &str, numbered: bool, maker: Maker) -> Result<bool> {
         self.warn_of_letters(text);
         let (cause, start) = (self.block.cause, self.tape.text.len());
         if self.tables.family == ControlFamily::Klartext {
@@ -320,7 +359,7 @@ impl Control {
             return Ok(false);
         }
         self.tape.line(text, cause, numbered, &self.tables, &mut self.commons)?;
-        self.edit_line(start)
+        self.edit_line(start, maker)
     }
 
     /// Warns of letters of a text that the control may not read.

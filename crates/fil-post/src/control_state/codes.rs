@@ -10,7 +10,7 @@ use fil_machine::osp_lengths;
 use fil_machine::setting::CodeAt;
 use fil_machine::{Commons, FunctionCode, Letter, letters};
 
-use super::{Compensation, Distance, Rotation};
+use super::{Compensation, Distance, Rotation, text};
 
 /// G34 and G35 of a SINUMERIK: threading moves whose lead grows, and shrinks.
 pub const VARYING_LEADS_OF_SINUMERIK: [FunctionCode; 2] =
@@ -107,6 +107,8 @@ pub struct Codes {
     sinumerik: bool,
     /// The function that limits the speed of the spindle.
     speed_limit: Option<FunctionCode>,
+    /// The last digits of T are the offset: T0303.
+    pub tool_word_has_offset: bool,
     /// T changes the tool by itself, as on a turret.
     pub tool_word_changes: bool,
 }
@@ -147,6 +149,8 @@ impl Codes {
             side_turns: side_turns(commons),
             choices: [loc::SPINDLE_SIDE_MASTER_CODE, loc::SPINDLE_MAIN_MASTER_CODE].map(code),
             speed_limit: code(loc::SPINDLE_MAX_CODE),
+            tool_word_has_offset: commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress
+                && commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode,
             tool_word_changes: commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode
                 || commons.read(loc::TOOL_CHANGE_CODE).is_none(),
         };
@@ -315,6 +319,20 @@ impl Codes {
             _ if OPEN.contains(&code) => None,
             _ => Some(FeedMode::PerRevolution),
         }
+    }
+
+    /// True for words that move axes to positions of the part, with the length of the tool as it was:
+    /// none of their functions calls one, moves the zero or goes to a place of the machine.
+    pub fn moves_in_part(&self, words: &[(Letter, f64)]) -> bool {
+        !self.places_zero(words)
+            && text::functions(words).all(|code| match self.meaning(code) {
+                Meaning::ToolLength | Meaning::TipControl | Meaning::Tilt | Meaning::Unknown => {
+                    false
+                }
+                Meaning::Frame => self.chooses_offset(code),
+                Meaning::OneBlock => code != FunctionCode::whole(4),
+                _ => true,
+            })
     }
 
     /// True for words that place the zero: those of the function that limits the speed, which on a

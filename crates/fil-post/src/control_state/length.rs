@@ -48,9 +48,15 @@ impl ControlState {
         self.doubt(letters::H);
     }
 
-    /// LOADTL has changed the tool, whose length waits to be called.
-    pub fn length_of_new_tool(&mut self) {
-        if self.length == Length::OfAnotherTool {
+    /// A word of others names tool and offset in one: T0303. T0300 takes the offset off.
+    pub(super) fn length_by_tool_word(&mut self, value: f64) {
+        self.length = if value % 100.0 == 0.0 { Length::Taken } else { Length::Called };
+    }
+
+    /// LOADTL has changed the tool, whose length waits to be called; `by_its_word`: it is called
+    /// already.
+    pub fn length_of_new_tool(&mut self, by_its_word: bool) {
+        if by_its_word || self.length == Length::OfAnotherTool {
             self.length = Length::Unsaid;
         }
     }

@@ -83,7 +83,7 @@ impl ControlState {
             match (*letter, FunctionCode::of_value(*value)) {
                 (letters::G, Some(code)) => self.learn_code(code, codes),
                 (letters::M, Some(code)) => self.learn_auxiliary(code, codes),
-                (letters::T, _) => self.names_tool(codes),
+                (letters::T, _) => self.names_tool(*value, codes),
                 (letters::H, _) => self.names_length(*value, ways.length),
                 (letter, _) if cycle => self.doubt(letter),
                 (letter, _) => self.trust(letter),
@@ -99,6 +99,35 @@ impl ControlState {
         if drills || has(b"UVW") && !ways.home || counts_on && moves {
             self.lose_axes();
         } else if counts_on {
+            self.doubt_axes();
+        }
+    }
+
+    /// Learns from a block of the post that was edited, and has no functions but its own; `made` is
+    /// what the post had made of it. In a cycle other words may have changed its data.
+    pub fn learn_own_words(
+        &mut self,
+        words: &[(Letter, f64)],
+        made: &[(Letter, f64)],
+        codes: &Codes,
+    ) {
+        let cycle = self.in_cycle != Some(false);
+        let of = |kind: Letter| {
+            let words = words.iter().filter(move |(letter, _)| *letter == kind);
+            words.filter_map(|(_, value)| FunctionCode::of_value(*value))
+        };
+        of(letters::G).for_each(|code| self.learn_code(code, codes));
+        of(letters::M).for_each(|code| self.learn_auxiliary(code, codes));
+        let calls = of(letters::G)
+            .any(|code| matches!(codes.meaning(code), Meaning::ToolLength | Meaning::TipControl));
+        for word in words.iter().filter(|(letter, _)| !matches!(*letter, letters::G | letters::M)) {
+            match word.0 {
+                letters::H if !made.contains(word) => self.names_length(word.1, calls),
+                letter if cycle && !made.contains(word) => self.doubt(letter),
+                letter => self.trust(letter),
+            }
+        }
+        if self.distance != Some(Distance::Absolute) {
             self.doubt_axes();
         }
     }
@@ -130,7 +159,7 @@ impl ControlState {
                 (letters::G, Some(code)) => self.learn_code(code, codes),
                 (letters::G | letters::M, None) => self.forget(),
                 (letters::M, Some(code)) => self.learn_auxiliary(code, codes),
-                (letters::T, _) => self.names_tool(codes),
+                (letters::T, _) => self.names_tool(*value, codes),
                 (letters::H, _) => self.names_length(*value, ways.length),
                 (letter, _) if is_axis(letter) => self.doubt_axes(),
                 (letter, _) => self.doubt(letter),
@@ -164,8 +193,11 @@ impl ControlState {
     }
 
     /// A word names a tool.
-    fn names_tool(&mut self, codes: &Codes) {
+    fn names_tool(&mut self, value: f64, codes: &Codes) {
         self.tool = None;
+        if codes.tool_word_has_offset {
+            self.length_by_tool_word(value);
+        }
         self.tool_said |= codes.tool_word_changes;
     }
 

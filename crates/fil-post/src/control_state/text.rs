@@ -76,6 +76,33 @@ pub fn read(text: &str) -> Option<TextWords> {
     }
 }
 
+/// The words of a text as far as they can be read, its number left out: what can't be read stands
+/// for no word.
+pub fn readable_words(text: &str) -> Vec<(Letter, f64)> {
+    let mut words = Vec::new();
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        match first {
+            ';' => break,
+            '(' => match rest.find(')') {
+                Some(end) => rest = &rest[end..],
+                None => break,
+            },
+            _ => {
+                let read = || Some((Letter::of_character(first)?, number(rest[1..].trim_start())?));
+                if let Some((letter, (value, after))) = read() {
+                    words.push((letter, value));
+                    rest = after;
+                    continue;
+                }
+            }
+        }
+        rest = &rest[rest.chars().next().map_or(0, char::len_utf8)..];
+    }
+    words.retain(|(letter, _)| *letter != letters::N);
+    words
+}
+
 /// True for a text with something like G91 or M98 in it.
 fn names_function(text: &str) -> bool {
     let mut pairs = text.chars().zip(text.chars().skip(1));

@@ -279,7 +279,7 @@ pub fn end(control: &mut Control) -> Result<()> {
         }
     }
     if control.tables.family == ControlFamily::WordAddress {
-        control.waiting.length_offset = control.tip.offset;
+        control.await_length(control.tip.offset);
     }
     Ok(())
 }

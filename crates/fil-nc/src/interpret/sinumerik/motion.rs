@@ -200,7 +200,7 @@ impl Sinumerik<'_> {
         if self.called.is_some() {
             return Err(Fault::new(NcCode::Twice, "a cycle of MCALL in the frame of the machine"));
         }
-        self.machine_motion(said)
+        self.go_to_fixed_point(said)
     }
 
     /// `G74` and `G75`: the axes go where the machine says; their words have no meaning.

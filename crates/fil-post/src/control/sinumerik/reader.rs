@@ -122,6 +122,25 @@ pub fn learn(control: &mut Control, text: &str) {
     control.state.learn_text_words(&words, &control.codes, control.unit);
 }
 
+/// The words of a line as far as they can be read, its number left out: `M1=3` is M3, SUPA is G53.
+pub fn readable_words(line: &str) -> Vec<(Letter, f64)> {
+    let words = items(without_comment(line)).into_iter().filter_map(|item| {
+        if item == "SUPA" {
+            return Some((letters::G, 53.0));
+        }
+        let letter = item.chars().next().and_then(Letter::of_character)?;
+        let value = item.split_once('=').map_or(&item[1..], |(_, value)| value);
+        let inner = |text: &str| {
+            let inside = text.split_once('(').map_or(text, |(_, inside)| inside);
+            inside.trim_end_matches(')').trim_matches('"').parse::<f64>().ok()
+        };
+        // A tool has a name.
+        let value = inner(value).or((letter == letters::T).then_some(0.0))?;
+        value.is_finite().then_some((letter, value))
+    });
+    words.filter(|(letter, _)| *letter != letters::N).collect()
+}
+
 /// Learns from words that were written one after the other (POSTN, PREFUN, AUXFUN).
 pub fn learn_words(control: &mut Control, words: &[(Letter, f64, Cause)]) {
     learn_turning(control, words.iter().map(|(letter, value, _)| (*letter, *value)));

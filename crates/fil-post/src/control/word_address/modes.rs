@@ -53,8 +53,10 @@ fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
     let sinumerik = control.tables.family == ControlFamily::Sinumerik;
     if control.state.in_cycle != Some(false) && sinumerik {
         sinumerik::cycle::cancel(control)?;
-    } else if control.state.in_cycle != Some(false) {
-        say(control, control.code_if_any(loc::CYCLE_OFF_CODE));
+    } else if control.state.in_cycle != Some(false)
+        && !say(control, control.code_if_any(loc::CYCLE_OFF_CODE))
+    {
+        control.state.in_cycle = Some(false);
     }
     if !control.state.x_is_as_written {
         say_what_x_is(control, sinumerik)?;
@@ -86,7 +88,6 @@ fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
         return PostCode::NoCode.err(format!("the machine has no code that brings {what} back"));
     }
     control.write_block()?;
-    control.state.in_cycle = Some(false);
     leave_plane_of_its_own(control)?;
     length_plane::take_back(control)?;
     control.block = waiting;

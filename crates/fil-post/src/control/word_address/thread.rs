@@ -184,8 +184,8 @@ fn two_blocks(
     cut.lead('F', thread.lead.value)?;
     let (setup, cut) = (setup.text, cut.text);
     control.because(thread.lead.cause, |control| {
-        control.write_text(&setup, true)?;
-        control.write_text(&cut, true)
+        control.write_own_text(&setup)?;
+        control.write_own_text(&cut)
     })
 }
 
@@ -203,7 +203,7 @@ fn one_block(post: &mut Post, thread: &Thread, ends: &Ends, code: FunctionCode) 
     line.word('A', thread.angle, Rounding::Nearest)?;
     line.lead('F', thread.lead.value)?;
     let text = line.text;
-    control.because(thread.lead.cause, |control| control.write_text(&text, true))
+    control.because(thread.lead.cause, |control| control.write_own_text(&text))
 }
 
 /// LinuxCNC's G76 P Z I J R K Q H: I, J and K count as X does. E is the way along Z on which each
@@ -235,7 +235,7 @@ fn linuxcnc(
         line.word('L', EXIT, Rounding::Exact)?;
     }
     let text = line.text;
-    control.because(thread.lead.cause, |control| control.write_text(&text, true))
+    control.because(thread.lead.cause, |control| control.write_own_text(&text))
 }
 
 /// A length in smallest steps, without a point.

@@ -63,7 +63,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
         control.because(wanted.causes[1], |control| length_offset(control, wanted, before))?;
     }
     control.state.has_tool(Some(wanted.tool));
-    control.state.length_of_new_tool();
+    control.state.length_of_new_tool(one_word);
     control.state.tool_offset = Some(wanted.offset);
     Ok(())
 }
@@ -154,7 +154,7 @@ fn length_offset(
 ) -> Result<()> {
     if control.tables.tip_output {
         control.tip.offset = Some((wanted.offset, control.block.cause));
-        control.waiting.length_offset = control.tip.offset;
+        control.await_length(control.tip.offset);
         return Ok(());
     }
     let calls = control.commons.read(loc::TOOL_LENGTH_FROM_TOOL);
@@ -179,7 +179,7 @@ fn length_offset(
         return Ok(());
     }
     let Some(z) = control.commons.dbl_opt(loc::TOOL_LENGTH_Z) else {
-        control.waiting.length_offset = Some((wanted.offset, control.block.cause));
+        control.await_length(Some((wanted.offset, control.block.cause)));
         control.state.doubt(control.tables.axis(2).letter);
         return Ok(());
     };

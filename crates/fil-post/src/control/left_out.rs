@@ -1,0 +1,430 @@
+//! Words that somebody takes out of a block of the post or changes in it, on its way to the tape
+//! (INTCOM 4667 and 1920, REPLAC): the post goes on from what is left. What it can say again it
+//! says with the next motion; what it can't is refused, as it would go on as if the word stood.
+
+use fil_diag::Result;
+use fil_machine::letters::{F, G, H, M, N, R, S, T};
+use fil_machine::locations::{self as loc, ControlFamily, CycleReturnCodes, FixtureForm};
+use fil_machine::modes::FeedMode;
+use fil_machine::rounding::Rounding;
+use fil_machine::setting::CodeAt;
+use fil_machine::{FunctionCode, Letter, letters};
+
+use super::{Control, Function};
+use crate::control_state::{CALLS, Compensation, Length, Meaning, TOOL_CHANGE};
+use crate::errors::PostCode;
+
+/// A word of a block.
+pub(super) type Word = (Letter, f64);
+
+/// Who has made the block that is edited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Maker {
+    /// The post, which counts on its words.
+    Post,
+    /// POSTN: what is left is learned as if it had said no more.
+    Words,
+    /// A text: the same, and none of its words was put on the tape by its value.
+    Text,
+}
+
+/// Functions that end a program or a subprogram, M17 that of a SINUMERIK.
+const ENDS: [FunctionCode; 4] = [
+    FunctionCode::whole(2),
+    FunctionCode::whole(17),
+    FunctionCode::whole(30),
+    FunctionCode::whole(99),
+];
+
+/// Codes of coolant.
+const COOLANT: [CodeAt; 12] = [
+    loc::COOLANT_DEFAULT_CODE,
+    loc::COOLANT_FLOOD_CODE,
+    loc::COOLANT_FLOOD_LOW_CODE,
+    loc::COOLANT_FLOOD_MEDIUM_CODE,
+    loc::COOLANT_FLOOD_HIGH_CODE,
+    loc::COOLANT_MIST_CODE,
+    loc::COOLANT_TAP_CODE,
+    loc::COOLANT_AIR_CODE,
+    loc::COOLANT_THRU_LOW_CODE,
+    loc::COOLANT_THRU_MEDIUM_CODE,
+    loc::COOLANT_THRU_HIGH_CODE,
+    loc::COOLANT_OFF_CODE,
+];
+
+/// Auxiliary functions that the post says once, where the machine needs them.
+const SAID_ONCE: [CodeAt; 10] = [
+    loc::PROGRAM_END_CODE,
+    loc::PROGRAM_REWIND_CODE,
+    loc::TOOL_CHANGE_CODE,
+    loc::ROTARY_CLAMP_CODE,
+    loc::ROTARY_UNCLAMP_CODE,
+    loc::CYCLE_RIGID_TAP_MODE,
+    loc::MILL_TURN_MILLING_CODE,
+    loc::MILL_TURN_TURNING_CODE,
+    loc::THREAD_CHAMFER_ON_CODE,
+    loc::THREAD_CHAMFER_OFF_CODE,
+];
+
+/// A block of the post before and behind the edit.
+#[derive(Clone, Copy)]
+pub(super) struct Edit<'w> {
+    pub before: &'w [Word],
+    pub after: &'w [Word],
+}
+
+impl<'w> Edit<'w> {
+    /// Words that are gone: functions by their number, others by their letter.
+    fn lost(self) -> impl Iterator<Item = Word> + 'w {
+        let stays = move |word: &Word| match word.0 {
+            G | M => self.after.contains(word),
+            letter => has(self.after, letter),
+        };
+        self.before.iter().copied().filter(move |word| !stays(word))
+    }
+
+    /// Words that have another value, or are new: functions left out.
+    fn changed(self) -> impl Iterator<Item = Word> + 'w {
+        let is_new =
+            move |word: &&Word| !matches!(word.0, G | M | N) && !self.before.contains(word);
+        self.after.iter().filter(is_new).copied()
+    }
+
+    /// Functions that are new.
+    fn put_in(self, letter: Letter) -> impl Iterator<Item = FunctionCode> + 'w {
+        let new = self.after.iter().filter(move |word| !self.before.contains(word));
+        functions(new, letter)
+    }
+
+    /// True where the edit has put functions in that may do what the post does not know of.
+    pub(super) fn brings_functions(self) -> bool {
+        let of_m = |code| code == TOOL_CHANGE || CALLS.contains(&code);
+        self.put_in(G).next().is_some() || self.put_in(M).any(of_m)
+    }
+
+    /// True where S is another one, or counts otherwise.
+    pub(super) fn changes_speed(self) -> bool {
+        self.brings_functions() || self.changed().any(|(letter, _)| letter == S)
+    }
+
+    /// A function of the block as it was made.
+    fn had(self, is: impl Fn(FunctionCode) -> bool) -> bool {
+        functions(self.before.iter(), G).any(is)
+    }
+}
+
+fn has(words: &[Word], letter: Letter) -> bool {
+    words.iter().any(|word| word.0 == letter)
+}
+
+fn functions<'w>(
+    words: impl Iterator<Item = &'w Word>,
+    letter: Letter,
+) -> impl Iterator<Item = FunctionCode> {
+    words.filter(move |word| word.0 == letter).filter_map(|word| FunctionCode::of_value(word.1))
+}
+
+/// Both are of one kind, whichever of it.
+fn is_alike(one: Meaning, other: Meaning) -> bool {
+    std::mem::discriminant(&one) == std::mem::discriminant(&other)
+}
+
+impl Control {
+    /// Refuses a word of the post that was taken out or changed, and that it can't say again.
+    ///
+    /// # Errors
+    /// There is one.
+    pub(super) fn refuse_left_out(&self, edit: Edit<'_>) -> Result<()> {
+        let text = |(letter, value): Word| format!("{letter}{value}");
+        if let Some(word) = edit.lost().find(|word| !self.may_miss(*word, edit)) {
+            return PostCode::EditedWord.err(format!(
+                "{} is taken out of its block, and what follows would go on as if it stood",
+                text(word)
+            ));
+        }
+        match edit.changed().find(|word| self.counts_on_value(*word, edit)) {
+            Some(word) => PostCode::EditedWord.err(format!(
+                "{} stands in a block whose values the post goes on from",
+                text(word)
+            )),
+            None => Ok(()),
+        }
+    }
+
+    fn is_code(&self, code: FunctionCode, group: &[CodeAt]) -> bool {
+        group.iter().any(|at| self.code_if_any(*at) == Some(code))
+    }
+
+    fn may_miss(&self, (letter, value): Word, edit: Edit<'_>) -> bool {
+        match (letter, FunctionCode::of_value(value)) {
+            (N, _) => true,
+            (G, Some(code)) => self.may_miss_g(code, edit),
+            (M, Some(code)) => self.may_miss_m(code, edit),
+            (T, _) => self.only_prepares(edit),
+            _ => self.may_miss_word(letter, edit),
+        }
+    }
+
+    /// T names the next tool, which the block of its change names again.
+    fn only_prepares(&self, edit: Edit<'_>) -> bool {
+        let commons = &self.commons;
+        commons.read(loc::TOOL_PRESELECT)
+            && !commons.read(loc::TOOL_SEPARATE_BLOCKS)
+            && !self.codes.tool_word_changes
+            && !has(edit.before, M)
+    }
+
+    fn may_miss_g(&self, code: FunctionCode, edit: Edit<'_>) -> bool {
+        let meaning = self.meaning(code);
+        let state = &self.state;
+        let is_replaced = || edit.put_in(G).any(|new| is_alike(self.meaning(new), meaning));
+        match meaning {
+            Meaning::Motion => !self.is_thread(code) || edit.put_in(G).any(|new| self.is_thread(new)),
+            Meaning::Plane(_)
+            | Meaning::Distance(_)
+            | Meaning::Unit(_)
+            | Meaning::FeedMode(_)
+            | Meaning::Diameters
+            | Meaning::Unknown => true,
+            Meaning::Compensation(Compensation::Off) => {
+                state.compensation == Some(Compensation::Off)
+            }
+            Meaning::Compensation(_) => edit.put_in(G).any(|new| {
+                matches!(self.meaning(new), Meaning::Compensation(side) if side != Compensation::Off)
+            }),
+            Meaning::Cycle | Meaning::Turning | Meaning::TipControl => is_replaced(),
+            Meaning::CycleOff => state.in_cycle == Some(false),
+            Meaning::ReturnLevel => state.return_level == Some(code),
+            Meaning::SurfaceSpeed(on) => state.surface_speed == Some(on) || is_replaced(),
+            Meaning::OneBlock if self.is_code(code, &[loc::SPINDLE_MAX_CODE]) => false,
+            Meaning::OneBlock => {
+                let stays = |word: &Word| !matches!(word.0, G | M | N) && has(edit.after, word.0);
+                !(self.is_code(code, &[loc::DWELL_CODE]) && edit.before.iter().any(stays))
+            }
+            Meaning::ToolLength if self.codes.takes_length(code) => {
+                matches!(state.length, Length::Unsaid | Length::Taken)
+                    && state.tip_control == Some(false)
+            }
+            Meaning::ToolLength => {
+                is_replaced() || edit.put_in(G).any(|new| self.meaning(new) == Meaning::TipControl)
+            }
+            Meaning::Tilt => false,
+            Meaning::Frame => {
+                let is_another = || edit.put_in(G).any(|new| self.chooses_offset(new));
+                self.chooses_offset(code) && (!self.names_offset(edit) || is_another())
+            }
+        }
+    }
+
+    fn is_thread(&self, code: FunctionCode) -> bool {
+        self.is_code(code, &[loc::THREAD_CODE, loc::THREAD_VARYING_CODE])
+    }
+
+    /// A word beside its function chooses the work offset: G54.1 P2.
+    fn names_offset(&self, edit: Edit<'_>) -> bool {
+        let letter = self.commons.read(loc::FIXTURE_EXTENDED_ADDRESS);
+        let is_named = letter.is_some_and(|letter| has(edit.before, letter));
+        is_named && edit.had(|code| self.chooses_offset(code) && !self.codes.is_fixture(code))
+    }
+
+    fn may_miss_m(&self, code: FunctionCode, edit: Edit<'_>) -> bool {
+        if ENDS.contains(&code) || self.is_code(code, &SAID_ONCE[..2]) {
+            let ends = |new| ENDS.contains(&new) || self.is_code(new, &SAID_ONCE[..2]);
+            return edit.put_in(M).any(ends);
+        }
+        let is_said_once = code == TOOL_CHANGE
+            || self.is_code(code, &SAID_ONCE)
+            || self.codes.is_spindle_range(code)
+            || self.codes.chooses_spindle(code);
+        // A function in its place is how the shop writes it.
+        !is_said_once || edit.put_in(M).next().is_some()
+    }
+
+    /// The block gives its words a meaning of its own, which none may be taken from.
+    fn may_miss_word(&self, letter: Letter, edit: Edit<'_>) -> bool {
+        let had = |meaning: Meaning| edit.had(|code| is_alike(self.meaning(code), meaning));
+        let is_of_block = had(Meaning::Tilt)
+            || had(Meaning::Cycle)
+            || had(Meaning::Turning)
+            || edit.had(|code| self.is_other_frame(code))
+            || edit.had(|code| self.is_code(code, &[loc::SPINDLE_MAX_CODE]))
+            || letter == S && edit.had(|code| self.makes_another_speed(code))
+            || self.is_fixed_beside_m(letter, edit);
+        if is_of_block {
+            return false;
+        }
+        let commons = &self.commons;
+        let is_axis = self.tables.present().numbers().any(|n| self.tables.axis(n).letter == letter);
+        let is_thread = edit.had(|code| self.is_thread(code));
+        let is_offset_of_cutter = letter == letters::D
+            && self.tables.family == ControlFamily::Sinumerik
+            || commons.read(loc::CUTCOM_ADDRESS) == Some(letter)
+                && edit.had(|code| matches!(self.meaning(code), Meaning::Compensation(_)));
+        let is_offset = self.names_offset(edit)
+            && commons.read(loc::FIXTURE_EXTENDED_ADDRESS) == Some(letter)
+            || commons.read(loc::FIXTURE_FORM) == FixtureForm::Word
+                && commons.read(loc::FIXTURE_ADDRESS) == Some(letter);
+        let is_length = letter == H && (had(Meaning::ToolLength) || had(Meaning::TipControl));
+        let is_limit = commons.read(loc::SPINDLE_MAX_ADDRESS) == Some(letter);
+        let is_time = letter == F && self.is_inverse(edit);
+        !(is_thread && !is_axis
+            || is_offset_of_cutter
+            || is_offset
+            || is_length
+            || is_limit
+            || is_time)
+    }
+
+    /// S counts turns behind it and a way before it, or the other way round: the last S would be
+    /// read anew.
+    fn makes_another_speed(&self, code: FunctionCode) -> bool {
+        match self.meaning(code) {
+            Meaning::SurfaceSpeed(on) => self.state.surface_speed != Some(on),
+            _ => false,
+        }
+    }
+
+    /// F of the block is the time of its motion.
+    fn is_inverse(&self, edit: Edit<'_>) -> bool {
+        let modes = || {
+            functions(edit.before.iter(), G).filter_map(|code| match self.meaning(code) {
+                Meaning::FeedMode(mode) => Some(mode),
+                _ => None,
+            })
+        };
+        let mode = modes().last().or(self.state.feed_mode);
+        mode == Some(FeedMode::InverseTime)
+    }
+
+    /// A word beside M19 or M29: an angle, or the speed of a tap.
+    fn is_fixed_beside_m(&self, letter: Letter, edit: Edit<'_>) -> bool {
+        let had = |at| functions(edit.before.iter(), M).any(|code| self.is_code(code, &[at]));
+        letter == S && had(loc::CYCLE_RIGID_TAP_MODE)
+            || self.commons.read(loc::SPINDLE_ORIENT_ADDRESS) == Some(letter)
+                && had(loc::SPINDLE_ORIENT_CODE)
+    }
+
+    /// A function of the frame that is no work offset: G53, G28, G52, G12.1.
+    fn is_other_frame(&self, code: FunctionCode) -> bool {
+        self.meaning(code) == Meaning::Frame && !self.chooses_offset(code)
+    }
+
+    /// True for a word whose value the post goes on from, whatever the tape says.
+    fn counts_on_value(&self, (letter, value): Word, edit: Edit<'_>) -> bool {
+        let had = |meaning| edit.had(|code| self.meaning(code) == meaning);
+        let moves_to_machine =
+            edit.had(|code| self.codes.is_of_machine(code) || self.codes.is_home(code));
+        let is_frame = edit.had(|code| self.is_other_frame(code)) && !moves_to_machine;
+        let takes_length =
+            letter == T && self.codes.tool_word_has_offset && value.rem_euclid(100.0) == 0.0;
+        had(Meaning::Tilt)
+            || is_frame
+            || takes_length
+            || letter == S && self.is_fixed_beside_m(letter, edit)
+            || letter == R && had(Meaning::Cycle) && !self.returns_to_initial(edit)
+    }
+
+    /// The cycle of the block returns to the level before it, not to R.
+    fn returns_to_initial(&self, edit: Edit<'_>) -> bool {
+        let initial = self.code_if_any(loc::CYCLE_RETURN_INITIAL_CODE);
+        let is_level = |code: &FunctionCode| self.meaning(*code) == Meaning::ReturnLevel;
+        let said = functions(edit.after.iter(), G).filter(is_level).last();
+        self.commons.read(loc::CYCLE_RETURN_CODES) == CycleReturnCodes::Yes
+            && initial.is_some()
+            && said.or(self.state.return_level) == initial
+    }
+
+    /// The control does not have what an edit has taken out: it is said again.
+    pub(super) fn miss_left_out(&mut self, edit: Edit<'_>) {
+        for code in edit.lost().filter(|word| word.0 == G) {
+            if let Some(code) = FunctionCode::of_value(code.1) {
+                self.miss_g(code, edit);
+            }
+        }
+        let is_cycle = edit.had(|code| self.meaning(code) == Meaning::Cycle);
+        if is_cycle && edit.changed().next().is_some() {
+            // The next hole says all data of the cycle.
+            self.state.cycle = None;
+        }
+        self.owe_auxiliaries(edit);
+    }
+
+    fn miss_g(&mut self, code: FunctionCode, edit: Edit<'_>) {
+        let meaning = self.meaning(code);
+        if functions(edit.after.iter(), G).any(|said| is_alike(self.meaning(said), meaning)) {
+            return;
+        }
+        let state = &mut self.state;
+        match meaning {
+            Meaning::Plane(_) => state.plane = None,
+            Meaning::Distance(_) => state.distance = None,
+            Meaning::Unit(_) => state.unit = None,
+            Meaning::FeedMode(_) => {
+                state.feed_mode = None;
+                state.doubt(F);
+            }
+            Meaning::Diameters => state.x_is_as_written = false,
+            Meaning::Compensation(_) => state.compensation = None,
+            Meaning::CycleOff => state.in_cycle = None,
+            Meaning::Frame => {
+                state.fixture = None;
+                let cause = self.block.cause.whole();
+                self.owe(Function::WorkOffset, |control| {
+                    control.block.g(code, cause);
+                    Ok(())
+                });
+            }
+            _ => {}
+        }
+    }
+
+    /// The next motion says the functions of spindle and coolant, and S.
+    fn owe_auxiliaries(&mut self, edit: Edit<'_>) {
+        let is_replaced = edit.put_in(M).next().is_some();
+        let lost: Vec<Word> = edit.lost().collect();
+        let codes = || functions(lost.iter(), M).filter(|_| !is_replaced);
+        let by_side = self.state.side_is_counted == Some(true);
+        let turns = |code: &FunctionCode| {
+            self.codes.rotation(*code, by_side).is_some()
+                || self.is_code(*code, &[loc::SPINDLE_DEFAULT_CODE])
+        };
+        let turning = codes().find(turns);
+        let coolant: Vec<_> = codes().filter(|code| self.is_code(*code, &COOLANT)).collect();
+        let pauses = edit.had(|code| self.is_code(code, &[loc::DWELL_CODE]));
+        let speed = lost.iter().find(|word| word.0 == S && !pauses).map(|word| word.1);
+        let cause = self.block.cause.whole();
+        if turning.is_some() || speed.is_some() {
+            self.owe(Function::Spindle, |control| {
+                turning.into_iter().for_each(|code| control.block.m(code, cause));
+                speed.map_or(Ok(()), |speed| control.word_rounded(S, speed, Rounding::Rate))
+            });
+        }
+        if !coolant.is_empty() {
+            self.owe(Function::Coolant, |control| {
+                coolant.into_iter().for_each(|code| control.block.m(code, cause));
+                Ok(())
+            });
+        }
+    }
+
+    /// Has words come with the next motion, whichever it is.
+    fn owe(&mut self, function: Function, put: impl FnOnce(&mut Control) -> Result<()>) {
+        let block = self.block.take();
+        // The value has been on its way to the tape: it fits.
+        let fits = put(self).is_ok();
+        let owed = std::mem::replace(&mut self.block, block);
+        if fits {
+            self.waiting.owe(function, owed);
+        }
+    }
+
+    /// Learns from a block of the post that was edited: what was taken out of it or changed was
+    /// not refused.
+    pub(super) fn learn_left(&mut self, edit: Edit<'_>) {
+        if edit.brings_functions() {
+            self.state.learn_words(edit.after, &self.codes);
+        } else {
+            self.state.learn_own_words(edit.after, edit.before, &self.codes);
+        }
+    }
+}
