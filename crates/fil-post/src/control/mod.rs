@@ -21,6 +21,7 @@ mod own_offsets;
 pub(crate) mod place;
 pub mod program;
 pub mod replaced;
+mod settings;
 pub mod sinumerik;
 pub(crate) mod skip;
 mod speed_of_others;

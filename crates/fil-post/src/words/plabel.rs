@@ -25,7 +25,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
     }
     items.deny_rest()?;
     let location = BEFORE_FIRST + label as u32;
-    stored::check_in_run(Kind::Int, location, value)?;
+    post.control.check_setting(Kind::Int, location, value)?;
     post.control.commons.set(Kind::Int, location, value)?;
     if !stored::acts(Kind::Int, location) {
         post.control.warnings.add_made(stored::without_effect(&[(Kind::Int, location)]));

@@ -3,7 +3,7 @@
 use fil_diag::Diag;
 use fil_machine::commons::EMPTY;
 use fil_machine::locations::TABLE;
-use fil_machine::{Commons, Kind, Letter, stored};
+use fil_machine::{Commons, Kind, Letter};
 use fil_vm::View;
 
 use super::modes;
@@ -42,7 +42,7 @@ impl DebugState<'_, '_> {
             return RunCode::WhileWriting
                 .err("nothing is set while a block is on its way to the tape");
         };
-        stored::check_in_run(kind, location, value)?;
+        post.control.check_setting(kind, location, value)?;
         post.control.commons.set(kind, location, value)
     }
 

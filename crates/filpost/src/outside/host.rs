@@ -27,7 +27,7 @@ impl Host for Outside<'_, '_> {
         value: f64,
     ) -> Result<Option<Box<Diag>>, Box<Diag>> {
         let kind = common_kind(kind);
-        stored::check_in_run(kind, location, value)?;
+        self.post.control.check_setting(kind, location, value)?;
         self.post.control.script_sets(kind, location, value);
         self.post.control.commons.set(kind, location, value)?;
         let is_first = !stored::acts(kind, location) && self.idle.insert((kind, location));
