@@ -4,12 +4,15 @@
 mod codes;
 mod counted_spindle;
 mod description;
+mod function_rules;
+mod functions;
 mod letters;
 mod numbers;
+mod tape;
 mod travel;
+mod written;
 
 use fil_diag::{Diag, Result};
-use fil_text::CodePage;
 
 use crate::address::{Addresses, FORMATS, SPECIFICATIONS, TapePosition};
 use crate::axis_chain::{AxisChain, Carries};
@@ -19,22 +22,12 @@ use crate::frame_rules;
 use crate::full_turn;
 use crate::letter::{self, Letter};
 use crate::locations::{
-    self as loc, ControlFamily, ControlTranslation, HomeFrame, SeqnoAlign, TapeEndOfBlock,
-    TapePartnoText, ToolChangeBlock, ToolFormat,
+    self as loc, ControlFamily, ControlTranslation, HomeFrame, ToolChangeBlock, ToolFormat,
 };
 use crate::mill_turn;
 use crate::osp_lengths;
 use crate::rotary_feed_rules;
-use crate::setting::{CharacterAt, CodeAt};
-
-/// Characters that begin or end a line: letters and digits would be words, parentheses
-/// comments.
-const MARKS: &[(CharacterAt, &str)] = &[
-    (loc::TAPE_START_CHAR, "tape.start_char"),
-    (loc::TAPE_END_CHAR, "tape.end_char"),
-    (loc::TAPE_START_CODE, "tape.start_code"),
-    (loc::TAPE_OPSKIP_CHAR, "tape.opskip_char"),
-];
+use crate::setting::CodeAt;
 
 /// Farthest that the end of an arc may be corrected, mm or inch.
 const MOST_CORRECTION: f64 = 1.0;
@@ -53,6 +46,7 @@ pub fn check(commons: &Commons) -> Result<()> {
 /// All contradictions of the settings.
 pub fn all(commons: &Commons) -> Vec<Diag> {
     let mut found = Vec::new();
+    function_rules::check(commons, &mut found);
     codes::check(commons, &mut found);
     counted_spindle::check(commons, &mut found);
     incremental_start(commons, &mut found);
@@ -71,70 +65,20 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     found.extend(mill_turn::check(commons).err().map(|diag| *diag));
     same_positions(commons, &mut found);
     moved_letters(commons, &mut found);
-    letters::check(commons, &mut found);
+    let addresses = Addresses::from_commons(commons, true);
+    letters::check(commons, &addresses, &mut found);
+    written::check(commons, &addresses, &mut found);
     absent_axes(commons, &mut found);
     travel::forms(commons, &mut found);
     description::check(commons, &mut found);
     rotary_feeds(commons, &mut found);
     numbers::numbers(commons, &mut found);
-    tape(commons, &mut found);
+    tape::check(commons, &mut found);
     numbers::ranges(commons, &mut found);
     prepared_tools(commons, &mut found);
     frame_of_machine(commons, &mut found);
     tools_in_one_word(commons, &mut found);
     found
-}
-
-/// Marks of the tape that are asked for and not there, or mean something else, and an encoding
-/// that this build lacks.
-fn tape(commons: &Commons, found: &mut Vec<Diag>) {
-    let encoding = commons.read(loc::TAPE_ENCODING);
-    if CodePage::numbered(encoding as u16).is_none() {
-        let message =
-            format!("tape.encoding {}: this build has no pages of two bytes", encoding as u16);
-        found.push(*MachineCode::SettingValue.diag(message));
-    }
-    let has_text = commons.read(loc::TAPE_PARTNO_TEXT) == TapePartnoText::Yes;
-    if has_text && commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik {
-        found.push(contradiction(
-            "tape.partno_text asks for a line before the head of a SINUMERIK program".into(),
-        ));
-    }
-    let aligns = commons.read(loc::SEQNO_ALIGN) == SeqnoAlign::ToolChanges;
-    match commons.read(loc::TAPE_ALIGN_CHAR) {
-        _ if !aligns => {}
-        None => found.push(contradiction(
-            "seqno.align asks for a character, and tape.align_char is none".into(),
-        )),
-        Some(mark)
-            if Letter::of_character(mark)
-                .is_some_and(|mark| commons.read(loc::PROGRAM_NUMBER_ADDRESS) == Some(mark)) =>
-        {
-            found.push(contradiction(format!(
-                "{mark} is both tape.align_char and the letter of a program number"
-            )));
-        }
-        Some(_) => {}
-    }
-    for (at, name) in MARKS {
-        let skips = *at == loc::TAPE_OPSKIP_CHAR;
-        let is_no_mark =
-            |c: &char| c.is_alphanumeric() || "()\"'.+-".contains(*c) || (*c == '%' && skips);
-        if let Some(mark) = commons.read(*at).filter(is_no_mark) {
-            found.push(contradiction(format!("{name} is `{mark}`, which means something else")));
-        }
-    }
-    let length = commons.dbl_opt(loc::TAPE_LEADER).unwrap_or(0.0);
-    let has_leader = !commons.read(loc::TAPE_DNC) && length != 0.0;
-    if has_leader && commons.read(loc::TAPE_LEADER_CHAR).is_none() {
-        found.push(contradiction("tape.leader has a length, and tape.leader_char is none".into()));
-    }
-    let ends = commons.read(loc::TAPE_END_OF_BLOCK) == TapeEndOfBlock::Yes;
-    if ends && commons.read(loc::TAPE_END_OF_BLOCK_CHAR).is_none() {
-        found.push(contradiction(
-            "tape.end_of_block asks for a character, and tape.end_of_block_char is none".into(),
-        ));
-    }
 }
 
 fn contradiction(message: String) -> Diag {
@@ -218,7 +162,7 @@ fn rapid_rules(commons: &Commons, found: &mut Vec<Diag>) {
         )));
     }
     if let Some(letter) = word.0
-        && (letter::letters::XYZ.contains(&letter) || b"ABCFGHIJKMNRST".contains(&letter.byte()))
+        && (letter::letters::XYZ.contains(&letter) || b"ABCDFGHIJKMNORST".contains(&letter.byte()))
     {
         found.push(contradiction(format!("{letter} is the word of rapids and something else")));
     }

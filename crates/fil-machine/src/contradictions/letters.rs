@@ -18,6 +18,9 @@ struct Rule {
     taken: &'static [u8],
 }
 
+/// Letters of functions and axes, which stand in the block of a thread with another meaning.
+const OF_THREADS: &[u8] = b"GMNOSTUVWXYZ";
+
 /// Letters of words with a place of their own in each control of words.
 const RULES: &[Rule] = &[
     Rule {
@@ -34,6 +37,10 @@ const RULES: &[Rule] = &[
     },
     Rule { at: loc::SPINDLE_ORIENT_ADDRESS, what: "the angle of the spindle", taken: b"FGMNOTXYZ" },
     Rule { at: loc::SPINDLE_MAX_ADDRESS, what: "the limit of the speed", taken: b"FGMNOSTXYZ" },
+    Rule { at: loc::THREAD_LEAD_ADDRESS, what: "the lead of a thread", taken: OF_THREADS },
+    Rule { at: loc::THREAD_CHANGE_ADDRESS, what: "the growth of a lead", taken: OF_THREADS },
+    Rule { at: loc::THREAD_TAPER_ADDRESS, what: "the taper of a thread", taken: OF_THREADS },
+    Rule { at: loc::THREAD_COUNT_ADDRESS, what: "a number of threads", taken: OF_THREADS },
 ];
 
 /// The letters that a SINUMERIK has for them; none where it says them otherwise.
@@ -48,15 +55,17 @@ const SINUMERIK: &[(LetterAt, &str, Option<u8>)] = &[
 const NO_ROTARY_AXIS: &[u8] = b"DFGHIJKLMNOPQRSTXYZ";
 
 /// Finds letters that mean two things.
-pub(super) fn check(commons: &Commons, found: &mut Vec<Diag>) {
+pub(super) fn check(commons: &Commons, addresses: &Addresses, found: &mut Vec<Diag>) {
     let rotary = rotary_letters(commons);
-    let addresses = Addresses::from_commons(commons, true);
-    axis_letters(rotary, &addresses, found);
-    functions(commons, &addresses, found);
-    sequence_numbers(commons, &addresses, found);
+    axis_letters(rotary, addresses, found);
+    functions(commons, addresses, found);
+    sequence_numbers(commons, addresses, found);
     word_letters(commons, rotary, found);
     match commons.read(loc::CONTROL_FAMILY) {
-        ControlFamily::WordAddress => of_words(commons, found),
+        ControlFamily::WordAddress => {
+            of_words(commons, found);
+            fixture_letter(commons, rotary, found);
+        }
         ControlFamily::Sinumerik => of_sinumerik(commons, found),
         // Klartext says each of them by a word of its own.
         ControlFamily::Klartext => {}
@@ -106,6 +115,28 @@ fn of_words(commons: &Commons, found: &mut Vec<Diag>) {
     }
 }
 
+/// The word of a work offset stands alone, and is none of an offset of the tool or of an axis.
+fn fixture_letter(commons: &Commons, rotary: [Option<Letter>; 2], found: &mut Vec<Diag>) {
+    if commons.read(loc::FIXTURE_FORM) != FixtureForm::Word {
+        return;
+    }
+    let Some(letter) = commons.read(loc::FIXTURE_ADDRESS) else { return };
+    let compensates = [loc::CUTCOM_LEFT_CODE, loc::CUTCOM_RIGHT_CODE]
+        .into_iter()
+        .any(|at| commons.read(at).is_some());
+    let others = [
+        (
+            letter == letters::H && commons.read(loc::TOOL_LENGTH_CODE).is_some(),
+            "the tool's length",
+        ),
+        (compensates && commons.read(loc::CUTCOM_ADDRESS) == Some(letter), "the cutter offset"),
+        (rotary.contains(&Some(letter)), "a rotary axis"),
+    ];
+    for (_, what) in others.into_iter().filter(|(is_so, _)| *is_so) {
+        found.push(contradiction(format!("{letter} is both the work offset and {what}")));
+    }
+}
+
 fn of_sinumerik(commons: &Commons, found: &mut Vec<Diag>) {
     for (at, name, wanted) in SINUMERIK {
         let letter = commons.read(*at);
@@ -125,7 +156,7 @@ fn of_sinumerik(commons: &Commons, found: &mut Vec<Diag>) {
 }
 
 /// The letters of rotary axes, set or usual.
-fn rotary_letters(commons: &Commons) -> [Option<Letter>; 2] {
+pub(super) fn rotary_letters(commons: &Commons) -> [Option<Letter>; 2] {
     // A chain that can't be built is told of where it is built.
     match AxisChain::from_commons(commons) {
         Ok(chain) => chain.rotaries.map(|axis| axis.map(|axis| axis.letter)),

@@ -308,7 +308,8 @@ fn program_number(control: &mut Control) -> Result<()> {
     if control.commons.read(loc::PROGRAM_NAME_COMMENT) && !control.head.name.is_empty() {
         let name = control.head.name.replace(['(', ')'], " ");
         let name = control.in_tape_characters(&name);
-        let (name, _) = super::texts::clean_message(&name, '(', ')');
+        let end = control.tables.style.end_of_block;
+        let (name, _) = super::texts::clean_message(&name, ['(', ')'], end);
         line.push_str(&format!(" ({name})"));
     }
     let from_part = fixed.is_none() && control.head.number.is_some();
@@ -336,7 +337,8 @@ fn part_name(control: &mut Control) -> Result<()> {
     let open = control.commons.read(loc::MESSAGE_OUT_CHAR).unwrap_or('(');
     let close = control.commons.read(loc::MESSAGE_IN_CHAR).unwrap_or(')');
     let name = control.in_tape_characters(&control.head.name.clone());
-    let (name, _) = super::texts::clean_message(&name, open, close);
+    let end = control.tables.style.end_of_block;
+    let (name, _) = super::texts::clean_message(&name, [open, close], end);
     let cause = control.head.cause;
     control
         .because(cause, |control| control.put_line(&format!("{open}{name}{close}"), false))

@@ -32,12 +32,12 @@ pub fn check(text: &str) -> Result<()> {
 }
 
 /// A message without what must not reach the tape: the characters that enclose it,
-/// `%` and control characters become blanks. Says whether any did besides the
-/// enclosing ones.
-pub fn clean_message(text: &str, open: char, close: char) -> (String, bool) {
+/// `%`, what ends each block (`end`) and control characters become blanks. Says whether any did
+/// besides the enclosing ones.
+pub fn clean_message(text: &str, marks: [char; 2], end: Option<char>) -> (String, bool) {
     let mut changed = false;
-    let clean = text.chars().filter(|c| *c != open && *c != close).map(|c| {
-        let harmful = c == '%' || c.is_control();
+    let clean = text.chars().filter(|c| !marks.contains(c)).map(|c| {
+        let harmful = c == '%' || Some(c) == end || c.is_control();
         changed |= harmful;
         if harmful { ' ' } else { c }
     });

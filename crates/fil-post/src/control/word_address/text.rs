@@ -83,7 +83,7 @@ pub fn message(control: &mut Control, text: &str) -> Result<()> {
     let longest = control.commons.int(loc::MESSAGE_MAX_CHARS).clamp(1, 120) as usize;
     let on_text = control.commons.read(loc::SEQNO_ON_TEXT);
     let numbered = matches!(on_text, SeqnoOnText::Pprint | SeqnoOnText::Both);
-    let (clean, changed) = clean_message(text, open, close);
+    let (clean, changed) = clean_message(text, [open, close], control.tables.style.end_of_block);
     if changed {
         let message =
             format!("characters that must not reach the tape in `{}`", text.escape_debug());
