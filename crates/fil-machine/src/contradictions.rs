@@ -342,6 +342,12 @@ fn prepared_tools(commons: &Commons, found: &mut Vec<Diag>) {
     }
 }
 
+/// What a preparatory function within the range of work offsets means on this machine besides, such
+/// as G81 between G54 and G129; `None` for one that is a work offset alone.
+pub fn other_than_a_fixture(commons: &Commons, number: u16) -> Option<&'static str> {
+    function_rules::other_than_a_fixture(commons, number)
+}
+
 /// G53 of a control that calls lengths by G54 to G59 takes the length off, and names no frame.
 fn frame_of_machine(commons: &Commons, found: &mut Vec<Diag>) {
     let by_words = commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress;

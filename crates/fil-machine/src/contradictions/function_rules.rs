@@ -139,19 +139,36 @@ fn space(commons: &Commons, group: &Group) -> Space {
 /// Work offsets from the lowest to the highest, and the usual one.
 fn fixtures(commons: &Commons, functions: &mut Vec<Function>) {
     let number = |at: CodeAt| commons.read(at).and_then(|number| u16::try_from(number).ok());
-    let ends = number(loc::FIXTURE_MIN_CODE).zip(number(loc::FIXTURE_MAX_CODE));
-    let Some((first, last)) = ends.filter(|(first, last)| first <= last) else { return };
+    let ends = [loc::FIXTURE_MIN_CODE, loc::FIXTURE_MAX_CODE].map(number);
+    let [Some(first), Some(last)] = ends else { return };
+    if first > last {
+        return;
+    }
     if commons.read(loc::FIXTURE_FORM) != FixtureForm::GCode {
         return;
     }
     let usual = number(loc::FIXTURE_DEFAULT_CODE);
-    functions.extend((first..=last).chain(usual).map(|number| Function {
+    // A range may run over other functions (G54 to G129): SET refuses those that it would choose.
+    functions.extend([first, last].into_iter().chain(usual).map(|number| Function {
         space: Space::G,
         tenths: u32::from(number) * 10,
         what: FIXTURE,
         group: FIXTURE,
         fixed: false,
     }));
+}
+
+/// What a number between those of the work offsets means on this machine besides; `None` for one
+/// that is a work offset alone.
+pub(super) fn other_than_a_fixture(commons: &Commons, number: u16) -> Option<&'static str> {
+    let mut functions = Vec::new();
+    named(commons, &mut functions);
+    of_control(commons, &mut functions);
+    let tenths = u32::from(number) * 10;
+    let is_other = |other: &&Function| {
+        (other.space, other.tenths) == (Space::G, tenths) && other.group != FIXTURE
+    };
+    functions.iter().find(is_other).map(|other| other.what)
 }
 
 pub(super) fn always(_: &Commons) -> bool {

@@ -219,11 +219,15 @@ impl Codes {
     pub fn meaning(&self, code: FunctionCode) -> Meaning {
         match self.named.iter().find(|(named, _)| *named == code) {
             Some((_, meaning)) => *meaning,
-            None if self.fixtures.is_some_and(|(first, last)| first <= code && code <= last) => {
-                Meaning::Frame
-            }
-            None => self.usual(code),
+            None => match self.usual(code) {
+                Meaning::Unknown if self.is_in_range_of_fixtures(code) => Meaning::Frame,
+                usual => usual,
+            },
         }
+    }
+
+    fn is_in_range_of_fixtures(&self, code: FunctionCode) -> bool {
+        self.fixtures.is_some_and(|(first, last)| first <= code && code <= last)
     }
 
     /// True for a function whose block goes to positions of the machine.
@@ -239,8 +243,7 @@ impl Codes {
             true => matches!(value, 54.0..=57.0 | 505.0..=599.0),
             false => (54.0..=59.0).contains(&value),
         };
-        let is_named = self.fixtures.is_some_and(|(first, last)| first <= code && code <= last);
-        value.fract() == 0.0 && (is_usual || is_named)
+        value.fract() == 0.0 && (is_usual || self.is_in_range_of_fixtures(code))
     }
 
     /// True for a function that chooses a work offset, by itself or by a word beside it.

@@ -2,6 +2,7 @@
 
 use fil_diag::Result;
 use fil_machine::FunctionCode;
+use fil_machine::contradictions;
 use fil_machine::locations::{self as loc, FixtureForm, Placement};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::CodeAt;
@@ -100,6 +101,7 @@ fn code(control: &mut Control, index: i64) -> Result<()> {
     let extended = control.commons.int_opt(loc::FIXTURE_EXTENDED_CODE).filter(|code| *code > 0);
     let whole = |code: i64| i32::try_from(code).ok().and_then(FunctionCode::of_setting);
     if let Some(code) = whole(first + index - 1).filter(|_| (1..=plain).contains(&index)) {
+        refuse_other_function(control, first + index - 1)?;
         control.g(code);
         return Ok(());
     }
@@ -112,6 +114,7 @@ fn code(control: &mut Control, index: i64) -> Result<()> {
         }
         None if (first..=last).contains(&index) => {
             if let Some(code) = whole(index) {
+                refuse_other_function(control, index)?;
                 control.g(code);
                 return Ok(());
             }
@@ -119,4 +122,15 @@ fn code(control: &mut Control, index: i64) -> Result<()> {
         _ => {}
     }
     PostCode::WordForm.err(format!("SET: the machine has no work offset {index}"))
+}
+
+/// Refuses a number between those of the work offsets that means something else on this machine.
+fn refuse_other_function(control: &Control, code: i64) -> Result<()> {
+    let number = u16::try_from(code).ok();
+    match number.and_then(|code| contradictions::other_than_a_fixture(&control.commons, code)) {
+        Some(other) => {
+            PostCode::WordForm.err(format!("SET would choose G{code}, which is {other}"))
+        }
+        None => Ok(()),
+    }
 }
