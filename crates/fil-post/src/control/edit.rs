@@ -59,6 +59,10 @@ impl Control {
             self.block.clear();
             return Ok(());
         }
+        if !self.left_out.is_empty() {
+            let words = plain(&self.block.words(&self.tables.addresses));
+            self.are_said(&words);
+        }
         self.state.learn_block(&self.block, &self.codes, &self.tables.addresses);
         self.block.clear();
         Ok(())
@@ -69,6 +73,7 @@ impl Control {
         let after = plain(edited);
         let edit = Edit { before, after: &after };
         self.refuse_left_out(edit)?;
+        self.refuse_left_out_again(edit)?;
         self.block.clear();
         self.put_words(edited, Some(edit))?;
         self.miss_left_out(edit);
@@ -145,6 +150,7 @@ impl Control {
         let edit = Edit { before: &made, after: &left };
         if maker == Maker::Post {
             self.refuse_left_out(edit)?;
+            self.refuse_left_out_again(edit)?;
         }
         self.tape.replace_last_line(start, &after, &self.tables)?;
         let known = self.before_others()?;

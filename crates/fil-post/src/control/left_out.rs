@@ -151,6 +151,35 @@ impl Control {
         }
     }
 
+    /// Refuses a word that is taken out of the block, too, in which it is said again; all but the
+    /// functions of coolant, which the program goes on without as it does with them.
+    ///
+    /// # Errors
+    /// There is one.
+    pub(super) fn refuse_left_out_again(&mut self, edit: Edit<'_>) -> Result<()> {
+        self.are_said(edit.after);
+        for word in edit.lost().filter(|word| matches!(word.0, G | M | S)) {
+            let code = FunctionCode::of_value(word.1);
+            let is_coolant = word.0 == M && code.is_some_and(|code| self.is_code(code, &COOLANT));
+            let is_replaced = edit.put_in(word.0).next().is_some();
+            if self.left_out.contains(&word) && !is_coolant && !is_replaced {
+                return PostCode::EditedWord.err(format!(
+                    "{}{} is taken out of its block, and again where it is said again",
+                    word.0, word.1
+                ));
+            }
+            if !self.left_out.contains(&word) {
+                self.left_out.push(word);
+            }
+        }
+        Ok(())
+    }
+
+    /// Words that stand on the tape are no longer left out.
+    pub(super) fn are_said(&mut self, words: &[Word]) {
+        self.left_out.retain(|word| !words.contains(word));
+    }
+
     fn is_code(&self, code: FunctionCode, group: &[CodeAt]) -> bool {
         group.iter().any(|at| self.code_if_any(*at) == Some(code))
     }
@@ -210,6 +239,11 @@ impl Control {
             }
             Meaning::Tilt => false,
             Meaning::Frame => {
+                let goes_to_machine =
+                    |code| self.codes.is_of_machine(code) || self.codes.is_home(code);
+                if goes_to_machine(code) {
+                    return edit.put_in(G).any(goes_to_machine);
+                }
                 let is_another = || edit.put_in(G).any(|new| self.chooses_offset(new));
                 self.chooses_offset(code) && (!self.names_offset(edit) || is_another())
             }

@@ -102,6 +102,8 @@ pub struct Control {
     pub waiting: Waiting,
     /// What tool-tip control begins with.
     pub tip: TipOffset,
+    /// Words of the post that an edit has taken out and that do not stand on the tape since.
+    left_out: Vec<left_out::Word>,
     /// Words of REPEAT in the last motion block, by their letters.
     pub(crate) repeated: Vec<(Letter, f64)>,
     /// Letters whose REPEAT has ended since the last motion.
@@ -180,6 +182,7 @@ impl Control {
             state,
             waiting: Waiting::default(),
             tip: TipOffset::default(),
+            left_out: Vec::new(),
             repeated: Vec::new(),
             ended_repeats: Vec::new(),
             wound: [None; 2],

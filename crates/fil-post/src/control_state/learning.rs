@@ -11,9 +11,11 @@ impl ControlState {
     #[inline]
     pub fn learn_block(&mut self, block: &Block, codes: &Codes, addresses: &Addresses) {
         if !block.g_codes().is_empty() {
+            let said_by_others = self.lengths_said;
             for (code, _) in block.g_codes() {
                 self.learn_code(*code, codes);
             }
+            self.lengths_said = said_by_others;
         }
         for (code, _) in block.m_codes() {
             self.learn_auxiliary(*code, codes);

@@ -84,7 +84,8 @@ impl ControlState {
         agree(&mut self.compensation, &other.compensation);
         agree(&mut self.in_cycle, &other.in_cycle);
         agree(&mut self.cycle, &other.cycle);
-        let offsets = |state: &ControlState| (state.tool_offset, state.lengths_said);
+        let offsets =
+            |state: &ControlState| (state.tool_offset, state.called_offset, state.lengths_said);
         if self.tool != other.tool || offsets(self) != offsets(other) {
             // The next motion asks for it.
             self.x_is_as_written = false;

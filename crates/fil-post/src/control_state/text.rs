@@ -76,8 +76,8 @@ pub fn read(text: &str) -> Option<TextWords> {
     }
 }
 
-/// The words of a text as far as they can be read, its number left out: what can't be read stands
-/// for no word.
+/// The words of a text as far as they can be read, its number left out. A variable in place of a
+/// number (`S#102`, `S=R5`) is no number (NaN); what can't be read else stands for no word.
 pub fn readable_words(text: &str) -> Vec<(Letter, f64)> {
     let mut words = Vec::new();
     let mut rest = text;
@@ -94,6 +94,10 @@ pub fn readable_words(text: &str) -> Vec<(Letter, f64)> {
                     words.push((letter, value));
                     rest = after;
                     continue;
+                }
+                let is_variable = rest[first.len_utf8()..].trim_start().starts_with(['#', '=']);
+                if let Some(letter) = Letter::of_character(first).filter(|_| is_variable) {
+                    words.push((letter, f64::NAN));
                 }
             }
         }

@@ -21,8 +21,9 @@ use crate::post::Post;
 /// Radii of start and end may differ by this, mm or inch.
 const RADIUS_TOLERANCE: f64 = 1e-3;
 
-/// End and start of an arc nearer than this make a full circle, mm or inch.
-const SAME_POINT: f64 = 1e-6;
+/// End and start of an arc nearer than this make a full circle, mm or inch: CL files round to five
+/// digits behind the point at least, and no arc is that short.
+const SAME_POINT: f64 = 1.5e-5;
 
 /// End and start of an arc nearer than this, and farther than that, may be meant as one point: CL
 /// files have three digits and more. In mm.

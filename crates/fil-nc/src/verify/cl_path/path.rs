@@ -12,8 +12,9 @@ use crate::verify::report::FindingKind;
 use crate::verify::statements::{numbers, statement};
 use crate::verify::wanted::{Arc, Effect, Hole, Wanted};
 
-/// Start and end of an arc nearer than this make a full circle, in CL units.
-const SAME_POINT: f64 = 1e-6;
+/// Start and end of an arc nearer than this make a full circle, in CL units: numbers of a CL file
+/// have five digits behind the point, or more.
+const SAME_POINT: f64 = 1.5e-5;
 
 /// With TIMES an end that lacks less than this of the start closes the last full turn:
 /// so much may rounded points differ, mm or inch.
