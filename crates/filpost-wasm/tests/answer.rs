@@ -10,7 +10,7 @@ fn ask(request: &Value) -> Value {
 
 #[test]
 fn a_program_comes_with_what_made_its_lines() {
-    let fil = "CIMFIL/ON,LOADTL\nDMY=POSTF(13)\nPOSTN/OUT,G,0,Z,100\nCIMFIL/OFF\nFINI\n";
+    let fil = "CIMFIL/ON,LOADTL\nDMY=POSTF(13)\nPOSTN/OUT,G,0,G,43,Z,100,H,1\nCIMFIL/OFF\nFINI\n";
     let answer = ask(&json!({
         "do": "post", "ready": "fanuc-mill", "cl": CL,
         "fil": [{ "name": "raise.fil", "text": fil }],

@@ -109,10 +109,10 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
 /// It ends there, and TIMES does not say how many turns it makes.
 pub(super) fn refuse_nearly_full(post: &Post, arc: &Arc, end: Target) -> Result<()> {
     let Some(start) = post.path.point.filter(|_| arc.turns == 0.0) else { return Ok(()) };
-    let [from, to] = [start, end.point].map(|point| flat(arc, point));
-    let apart = (from - to).norm();
+    let way = end.point - start;
+    let apart = (way - arc.axis * arc.axis.dot(&way)).norm();
     let near = if post.control.is_metric() { NEARLY_SAME } else { NEARLY_SAME / INCH };
-    if apart < SAME_POINT || apart >= near || 2.0 * from.norm() <= near {
+    if apart < SAME_POINT || apart >= near || 2.0 * flat(arc, start).norm() <= near {
         return Ok(());
     }
     PostCode::ArcNearlyFull

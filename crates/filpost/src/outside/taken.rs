@@ -34,7 +34,8 @@ impl Taken {
 impl Outside<'_, '_> {
     /// A section begins with a record.
     pub fn watch_taken(&mut self, record: &Record) {
-        self.taken = Taken { motions: Vec::new(), from: self.post.point() };
+        self.taken.motions.clear();
+        self.taken.from = self.post.point();
         self.taken.is_current(record, &self.post);
     }
 
@@ -43,9 +44,12 @@ impl Outside<'_, '_> {
     /// # Errors
     /// As [`Post::motion_is_taken`].
     pub fn settle_taken(&mut self) -> Result<(), Box<Diag>> {
-        let Taken { motions, from } = std::mem::take(&mut self.taken);
-        let is_replaced = self.post.point() != from;
-        motions.into_iter().try_for_each(|(_, waits)| self.post.motion_is_taken(waits, is_replaced))
+        if self.taken.motions.is_empty() {
+            return Ok(());
+        }
+        let is_replaced = self.post.point() != self.taken.from;
+        let mut motions = self.taken.motions.iter();
+        motions.try_for_each(|(_, waits)| self.post.motion_is_taken(*waits, is_replaced))
     }
 }
 
