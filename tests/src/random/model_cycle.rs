@@ -23,6 +23,11 @@ pub(super) struct Active {
 }
 
 impl Active {
+    /// It taps.
+    pub(super) fn taps(&self) -> bool {
+        self.kind == CycleKind::Tap
+    }
+
     /// A rapid motion inside the cycle ends at a height.
     pub(super) fn traversed(&mut self, z: f64) {
         let highest = self.initial.map_or(z, |[_, high]| high.max(z));

@@ -4,6 +4,7 @@ use crate::path::{Axis, Unit};
 
 use super::expected::{Act, Compensation, Coolant, Rate, Turning, Want};
 use super::model::{Model, number};
+use super::model_cycle::Active;
 use super::setup::Placement;
 use super::statement::{CoolantCommand, CutcomCommand, Feedrate, SpindleCommand};
 
@@ -77,6 +78,9 @@ impl Model<'_> {
     }
 
     pub(super) fn spindle(&mut self, command: SpindleCommand) {
+        if self.cycle.as_ref().is_some_and(Active::taps) {
+            self.may_refuse("another speed between the holes of a tap");
+        }
         let (turning, placement) = match command {
             SpindleCommand::Turn { speed, ccw } => {
                 let direction = if ccw { "CCLW" } else { "CLW" };
