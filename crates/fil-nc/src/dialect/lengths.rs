@@ -1,6 +1,6 @@
-//! The plane in which the length of a tool acts along the tool.
+//! How a control takes up the lengths of tools, and in which plane they act along the tool.
 
-use super::{Dialect, Family};
+use super::{Dialect, Family, Settings};
 
 /// The least cosine between directions that are one.
 const SAME_WAY: f64 = 1.0 - 1e-6;
@@ -32,4 +32,13 @@ impl Dialect {
         let is_mill = self.family == Family::WordAddress && !self.lathe;
         is_mill && self.forward.tool().z.abs() > SAME_WAY
     }
+}
+
+/// LOADTL calls the length of its tool by a function with a number, in word address.
+pub(super) fn are_called(settings: &Settings) -> bool {
+    let is = |key: &str, value: i32| settings.code(key).unwrap_or(value) == value;
+    is("control.family", 0)
+        && is("tool.format", 1)
+        && settings.is_not_off("tool.length_from_tool")
+        && settings.code("tool.length_code").is_some()
 }

@@ -385,8 +385,8 @@ impl Dialect {
             lead: settings.letter("thread.lead_address"),
             lead_change: settings.letter("thread.change_address"),
             lead_along_path: settings.code("thread.lead_along") == Some(1),
-            calls_lengths: calls_lengths(&settings),
-            positions_end_lengths: calls_lengths(&settings)
+            calls_lengths: lengths::are_called(&settings),
+            positions_end_lengths: lengths::are_called(&settings)
                 && settings.is_not_off("home.ends_length"),
             names_noses: settings.code("tool.format") == Some(3),
             threads_need_turns: settings.code("thread.cycle") == Some(3),
@@ -480,13 +480,4 @@ fn start(commons: &Commons, letters: [u8; 5], scales: [Option<Scale>; 5]) -> [Op
 pub(crate) fn int(commons: &Commons, location: u32) -> Option<i32> {
     let value = commons.get(Kind::Int, location).ok()?;
     (value != EMPTY).then_some(value as i32)
-}
-
-/// LOADTL calls the length of its tool by a function with a number, in word address.
-fn calls_lengths(settings: &Settings) -> bool {
-    let is = |key: &str, value: i32| settings.code(key).unwrap_or(value) == value;
-    is("control.family", 0)
-        && is("tool.format", 1)
-        && settings.is_not_off("tool.length_from_tool")
-        && settings.code("tool.length_code").is_some()
 }

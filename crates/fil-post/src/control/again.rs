@@ -7,6 +7,7 @@ use fil_machine::modes::FeedMode;
 use fil_machine::{FunctionCode, Letter, letters};
 
 use super::Control;
+use super::apart::TURNING;
 use crate::cause::Cause;
 use crate::control_state::Meaning;
 use crate::errors::PostCode;
@@ -85,8 +86,7 @@ impl Control {
 
     /// A function that turns the spindle by the S of its block: S beside M19 or M29 is another word.
     fn turns(&self, code: FunctionCode) -> bool {
-        let turning = [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE, loc::SPINDLE_DEFAULT_CODE];
-        turning.iter().any(|at| self.code_if_any(*at) == Some(code))
+        TURNING.iter().any(|at| self.code_if_any(*at) == Some(code))
     }
 
     fn has_word(&self, letter: Letter, value: f64) -> Result<bool> {

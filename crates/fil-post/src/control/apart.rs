@@ -21,7 +21,7 @@ const AFTER: [CodeAt; 6] = [
 ];
 
 /// Auxiliary functions that turn the spindle at the speed of their block.
-const TURNING: [CodeAt; 3] =
+pub(super) const TURNING: [CodeAt; 3] =
     [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE, loc::SPINDLE_DEFAULT_CODE];
 
 impl Control {

@@ -247,7 +247,8 @@ impl Control {
     }
 }
 
-fn plain(words: &[CausedWord]) -> Vec<Word> {
+/// Words without their causes.
+pub(super) fn plain(words: &[CausedWord]) -> Vec<Word> {
     words.iter().map(|(letter, value, _)| (*letter, *value)).collect()
 }
 

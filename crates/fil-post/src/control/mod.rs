@@ -12,6 +12,7 @@ mod departure;
 mod edit;
 pub mod family;
 pub(crate) mod full_turn;
+pub mod heads;
 pub mod klartext;
 mod left_out;
 pub mod length_plane;

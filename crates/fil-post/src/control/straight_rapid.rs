@@ -7,8 +7,8 @@ use fil_machine::axes::AxisSet;
 use fil_machine::locations::{self as loc, ControlFamily, RapidStraight};
 use nalgebra::Vector3;
 
-use super::Control;
 use super::word_address::motion::Motion;
+use super::{Control, heads};
 use crate::errors::PostCode;
 
 /// Directions are one where the cosine between them is less than this below 1.
@@ -71,15 +71,8 @@ fn moves(control: &Control, motion: &Motion, number: usize) -> bool {
 /// Where the rotary axes stand before and behind a motion, degrees; `None` where that is not known.
 fn ends(control: &Control, motion: &Motion) -> Option<[[f64; 2]; 2]> {
     let of_frame = control.tip.frame.filter(|_| control.may_be_tilted()).map(|(_, angles)| angles);
-    if let Some(angles) = of_frame.or(control.tip.leans) {
-        return Some([angles; 2]);
+    match of_frame.or(control.tip.leans) {
+        Some(angles) => Some([angles; 2]),
+        None => heads::angles(control, motion),
     }
-    let mut angles = [[0.0; 2]; 2];
-    for number in AxisSet::ROTARY.and(control.tables.present()).numbers() {
-        let stands = control.stands(number);
-        let to = motion.axes.has(number).then_some(motion.position[number]);
-        angles[0][number - 3] = stands.or(to)?;
-        angles[1][number - 3] = to.or(stands)?;
-    }
-    Some(angles)
 }

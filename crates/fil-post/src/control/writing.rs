@@ -7,6 +7,7 @@ use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::{Plane, Unit};
 use fil_machine::{FunctionCode, Letter};
 
+use super::edit::plain;
 use super::left_out::{Edit, Maker};
 use super::word_address::modes;
 use super::{
@@ -86,7 +87,7 @@ impl Control {
         }
         self.refuse_after_end()?;
         modes::leave_plane_of_its_own(self)?;
-        let plain: Vec<(Letter, f64)> = words.iter().map(|word| (word.0, word.1)).collect();
+        let plain = plain(words);
         length_plane::before_others(self, &plain)?;
         self.refuse_without_length(&plain)?;
         if self.tables.style.edits_words
@@ -118,8 +119,7 @@ impl Control {
         if self.edit_line(start, maker)? {
             return Ok(());
         }
-        let plain: Vec<(Letter, f64)> =
-            words.iter().map(|(letter, value, _)| (*letter, *value)).collect();
+        let plain = plain(words);
         match edit {
             Some(edit) => self.learn_left(edit),
             None => self.state.learn_words(&plain, &self.codes),

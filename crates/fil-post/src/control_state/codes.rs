@@ -10,7 +10,7 @@ use fil_machine::osp_lengths;
 use fil_machine::setting::CodeAt;
 use fil_machine::{Commons, FunctionCode, Letter, letters};
 
-use super::{Compensation, Distance, Rotation, text};
+use super::{Compensation, Distance, Rotation, length, text};
 
 /// G34 and G35 of a SINUMERIK: threading moves whose lead grows, and shrinks.
 pub const VARYING_LEADS_OF_SINUMERIK: [FunctionCode; 2] =
@@ -136,8 +136,9 @@ impl Codes {
                 true => Some(osp_lengths::CANCEL),
                 false => code(loc::TOOL_LENGTH_CANCEL_CODE),
             },
-            calls_lengths: calls_lengths(commons),
-            positions_end_lengths: calls_lengths(commons) && commons.read(loc::HOME_ENDS_LENGTH),
+            calls_lengths: length::are_called(commons),
+            positions_end_lengths: length::are_called(commons)
+                && commons.read(loc::HOME_ENDS_LENGTH),
             tip_control: commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl,
             sinumerik: commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik,
             has_cycle_off: commons.read(loc::CYCLE_OFF_CODE).is_some(),
@@ -450,14 +451,6 @@ fn of_tenths(code: FunctionCode) -> Meaning {
         _ if offset => Meaning::Frame,
         _ => Meaning::Unknown,
     }
-}
-
-/// LOADTL calls the length of its tool by a function with a number, in word address.
-fn calls_lengths(commons: &Commons) -> bool {
-    commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress
-        && commons.read(loc::TOOL_FORMAT) == ToolFormat::TWordAndChangeCode
-        && commons.read(loc::TOOL_LENGTH_FROM_TOOL)
-        && commons.read(loc::TOOL_LENGTH_CODE).is_some()
 }
 
 /// What the functions of a SINUMERIK do.

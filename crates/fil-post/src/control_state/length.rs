@@ -1,6 +1,7 @@
 //! Whether Z counts from the tip of the tool.
 
-use fil_machine::{FunctionCode, Letter, letters};
+use fil_machine::locations::{self as loc, ControlFamily, ToolFormat};
+use fil_machine::{Commons, FunctionCode, Letter, letters};
 
 use super::{Codes, ControlState};
 
@@ -81,4 +82,12 @@ impl ControlState {
             self.length = other;
         }
     }
+}
+
+/// LOADTL calls the length of its tool by a function with a number, in word address.
+pub(super) fn are_called(commons: &Commons) -> bool {
+    commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress
+        && commons.read(loc::TOOL_FORMAT) == ToolFormat::TWordAndChangeCode
+        && commons.read(loc::TOOL_LENGTH_FROM_TOOL)
+        && commons.read(loc::TOOL_LENGTH_CODE).is_some()
 }

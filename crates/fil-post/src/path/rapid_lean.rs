@@ -10,9 +10,9 @@ use super::rapid_turn;
 use super::tip::{head, tip};
 use crate::cause::Cause;
 use crate::control::Control;
-use crate::control::family;
 use crate::control::place::refuse_unknown;
 use crate::control::word_address::motion::{Motion, RapidCode};
+use crate::control::{family, heads};
 use crate::control_state::Place;
 use crate::errors::PostCode;
 
@@ -51,7 +51,7 @@ impl Lie {
         if is_fixed || !holds_positions(control) {
             return UPRIGHT;
         }
-        let Some([from, to]) = angles(control, motion) else { return UPRIGHT };
+        let Some([from, to]) = heads::angles(control, motion) else { return UPRIGHT };
         let [from, to] = [from, to].map(|at| along(chain.tool_at(at)));
         if from == to { from } else { Lie::Leaning }
     }
@@ -76,34 +76,10 @@ fn along(tool: Vector3<f64>) -> Lie {
     }
 }
 
-/// Where the rotary axes stand before and behind a motion, degrees; `None` where a head may stand
-/// anywhere. A table does not turn the tool.
-fn angles(control: &Control, motion: &Motion) -> Option<[[f64; 2]; 2]> {
-    let tables = &control.tables;
-    let mut angles = [[0.0; 2]; 2];
-    for number in AxisSet::ROTARY.and(tables.present()).numbers() {
-        let is_table = head(tables.chain(), number - 3).is_none();
-        let at = control.stands(number).or_else(|| behind_a_zero(control, number));
-        let at = at.or(is_table.then_some(0.0))?;
-        angles[0][number - 3] = at;
-        angles[1][number - 3] = if motion.axes.has(number) { motion.position[number] } else { at };
-    }
-    Some(angles)
-}
-
-/// Where an axis stands that counts from another zero since it was moved, by its number before:
-/// a head leans on as it did.
-fn behind_a_zero(control: &Control, number: usize) -> Option<f64> {
-    match control.place(number) {
-        Place::Shifted(at) => Some(at),
-        _ => None,
-    }
-}
-
-/// Where the rotary axes stand, degrees, as [`angles`].
+/// Where the rotary axes stand, degrees, as [`heads::angles`].
 pub(super) fn turned(control: &Control) -> Option<[f64; 2]> {
     let nothing = Motion::new(Position::default(), AxisSet::NONE, 0);
-    angles(control, &nothing).map(|[at, _]| at)
+    heads::angles(control, &nothing).map(|[at, _]| at)
 }
 
 /// How far a leaning tool goes along itself to rise in Z.
@@ -247,7 +223,7 @@ pub(super) fn refuse_unknown_lean(control: &Control) -> Result<()> {
 fn leaning_behind_a_zero(control: &Control) -> Option<usize> {
     let chain = control.tables.chain();
     let is_shifted = |number: &usize| {
-        head(chain, number - 3).is_some() && behind_a_zero(control, *number).is_some()
+        head(chain, number - 3).is_some() && heads::behind_a_zero(control, *number).is_some()
     };
     let rotary = AxisSet::ROTARY.and(control.tables.present());
     let shifted = rotary.numbers().filter(is_shifted).last()?;

@@ -167,28 +167,27 @@ impl Shape {
 
     /// Pass i of n lies at the root of i/n of the depth, in front of those at full depth.
     pub fn divides_evenly(&self, thread: &Thread) -> bool {
-        let cuts = self.cuts(thread);
-        let share = |number: usize| ((number + 1) as f64 / cuts.len() as f64).sqrt();
-        let lies =
-            |(number, depth): (usize, &f64)| (depth - thread.depth * share(number)).abs() < NOTHING;
-        cuts.iter().enumerate().all(lies)
+        let count = self.cuts(thread).len() as f64;
+        self.cuts_lie_at(thread, |pass| thread.depth * (pass / count).sqrt())
     }
 
     /// Pass i lies at the root of i times the first depth, the last one at the full depth: what
     /// cycles without a least depth do.
     pub fn follows_roots(&self, thread: &Thread) -> bool {
         let ThreadPasses::First(first) = thread.passes else { return false };
-        let root = |number: usize| (first * ((number + 1) as f64).sqrt()).min(thread.depth);
-        let mut cuts = self.cuts(thread).iter().enumerate();
-        cuts.all(|(number, depth)| (depth - root(number)).abs() < NOTHING)
+        self.cuts_lie_at(thread, |pass| (first * pass.sqrt()).min(thread.depth))
     }
 
     /// Pass i lies at the root of i times the depth of the first, the last one at the full depth.
     pub fn goes_by_roots(&self, thread: &Thread) -> bool {
-        let cuts = self.cuts(thread);
-        let root = |number: usize| (cuts[0] * ((number + 1) as f64).sqrt()).min(thread.depth);
-        let lies = |(number, depth): (usize, &f64)| (depth - root(number)).abs() < NOTHING;
-        cuts.iter().enumerate().all(lies)
+        let first = self.cuts(thread).first().copied().unwrap_or(thread.depth);
+        self.cuts_lie_at(thread, |pass| (first * pass.sqrt()).min(thread.depth))
+    }
+
+    /// Each pass that goes deeper lies at the depth that a law has for its number, from 1.
+    fn cuts_lie_at(&self, thread: &Thread, law: impl Fn(f64) -> f64) -> bool {
+        let mut cuts = self.cuts(thread).iter().zip(1_u32..);
+        cuts.all(|(depth, pass)| (depth - law(f64::from(pass))).abs() < NOTHING)
     }
 
     /// The depths of the passes that go deeper.

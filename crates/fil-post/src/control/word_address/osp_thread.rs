@@ -95,5 +95,5 @@ pub fn write(
         line.function(letters::M, code)?;
     }
     let text = line.text;
-    control.because(thread.lead.cause, |control| control.write_text(&text, true))
+    control.because(thread.lead.cause, |control| control.write_own_text(&text))
 }
