@@ -9,7 +9,7 @@ use fil_machine::{FunctionCode, Letter, letters};
 use super::Control;
 use super::apart::TURNING;
 use crate::cause::Cause;
-use crate::control_state::Meaning;
+use crate::control_state::{Meaning, Source, modal};
 use crate::errors::PostCode;
 
 /// Letters of axes and F: what the next motion can say again.
@@ -41,7 +41,7 @@ impl Control {
         };
         for letter in chosen {
             match letter {
-                letters::G => self.state.motion = None,
+                letters::G => self.state.forget(modal::MOTION, Source::Post),
                 letter => self.state.doubt(letter),
             }
         }
@@ -90,17 +90,20 @@ impl Control {
     }
 
     fn has_word(&self, letter: Letter, value: f64) -> Result<bool> {
-        if self.state.in_cycle != Some(false) {
+        if !self.state.is(modal::CYCLE, false) {
             return Ok(false);
         }
         if letter == letters::G {
             let code = FunctionCode::of_value(value);
             let is_motion = code.is_some_and(|code| self.meaning(code) == Meaning::Motion);
-            return Ok(is_motion && self.state.motion == code);
+            return Ok(is_motion && self.state.get(modal::MOTION) == code);
         }
         let Some(format) = self.tables.addresses.format(letter) else { return Ok(false) };
         let is_time = letter == letters::F
-            && !matches!(self.state.feed_mode, Some(FeedMode::PerMinute | FeedMode::PerRevolution));
+            && !matches!(
+                self.state.get(modal::FEED_MODE),
+                Some(FeedMode::PerMinute | FeedMode::PerRevolution)
+            );
         // U and W of many lathes are increments of X and Z.
         if is_time || self.codes.moved_by(letter) != letter {
             return Ok(false);

@@ -8,6 +8,7 @@ use fil_machine::modes::FeedMode;
 use super::Control;
 use super::word_address::arc::PlaneArc;
 use super::word_address::motion::Motion;
+use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::Feed;
 
@@ -28,7 +29,7 @@ pub(super) fn parts(control: &Control, motion: &Motion) -> Result<Vec<Motion>> {
         let message = format!("a motion of {way:.3} takes more than {MOST_PARTS} blocks");
         return PostCode::TooManyParts.err(message);
     }
-    let begins_or_ends = control.state.compensation != Some(control.compensation_asked());
+    let begins_or_ends = !control.state.is(modal::CUTTER_COMP, control.compensation_asked());
     if begins_or_ends || control.tables.tip_vectors {
         let what = match begins_or_ends {
             true => "a motion that begins or ends cutter compensation",

@@ -13,6 +13,7 @@ use super::{
     Control, departure, klartext, length_plane, sinumerik, straight_rapid, vectors, word_address,
 };
 use crate::cause::Cause;
+use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::{Dwell, Feed, Lead, Operation, Thread, ToolChange};
 use crate::path::cycle::{Cycle, Hole};
@@ -170,7 +171,7 @@ pub fn begin_frame(
             sinumerik::swivel::begin(control, turn, higher)
         }
     }?;
-    control.state.tilted = Some(true);
+    control.state.set(modal::WORK_PLANE, true);
     Ok(turn)
 }
 
@@ -272,7 +273,9 @@ pub fn arc(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result
         ControlFamily::Sinumerik => {
             sinumerik::check_arc(control)?;
             word_address::arc::write(control, arc, feed)?;
-            control.state.in_plane_of_its_own = length_plane::is_of_one_motion(control, arc.plane);
+            control
+                .state
+                .set(modal::PLANE_IS_TEMPORARY, length_plane::is_of_one_motion(control, arc.plane));
             Ok(())
         }
         ControlFamily::WordAddress => word_address::arc::write(control, arc, feed),

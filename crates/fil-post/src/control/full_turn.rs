@@ -11,7 +11,7 @@ use fil_machine::locations::{self as loc, ControlFamily, RotaryOutput, RotaryZer
 
 use super::Control;
 use super::word_address::motion::Motion;
-use crate::control_state::Place;
+use crate::control_state::{Place, modal};
 use crate::errors::PostCode;
 
 /// The first rotary axis by number.
@@ -67,7 +67,9 @@ pub(crate) fn refuse_clamped(control: &Control, changed: AxisSet) -> Result<()> 
         () => AxisSet::ROTARY,
     };
     let turns = changed.and(turning).numbers().next();
-    let Some(number) = turns.filter(|_| control.state.may_be_clamped && !tables.clamps) else {
+    let Some(number) =
+        turns.filter(|_| control.state.may_be(modal::AXIS_CLAMP, true) && !tables.clamps)
+    else {
         return Ok(());
     };
     let letter = tables.axis(number.max(FIRST)).letter;

@@ -11,7 +11,7 @@ use fil_machine::setting::CodeAt;
 use fil_machine::{FunctionCode, Letter, letters};
 
 use super::{Control, Function};
-use crate::control_state::{CALLS, Compensation, Length, Meaning, TOOL_CHANGE};
+use crate::control_state::{CALLS, Compensation, Length, Meaning, Source, TOOL_CHANGE, modal};
 use crate::errors::PostCode;
 
 /// A word of a block.
@@ -216,23 +216,23 @@ impl Control {
             | Meaning::Diameters
             | Meaning::Unknown => true,
             Meaning::Compensation(Compensation::Off) => {
-                state.compensation == Some(Compensation::Off)
+                state.is(modal::CUTTER_COMP, Compensation::Off)
             }
             Meaning::Compensation(_) => edit.put_in(G).any(|new| {
                 matches!(self.meaning(new), Meaning::Compensation(side) if side != Compensation::Off)
             }),
             Meaning::Cycle | Meaning::Turning | Meaning::TipControl => is_replaced(),
-            Meaning::CycleOff => state.in_cycle == Some(false),
-            Meaning::ReturnLevel => state.return_level == Some(code),
-            Meaning::SurfaceSpeed(on) => state.surface_speed == Some(on) || is_replaced(),
+            Meaning::CycleOff => state.is(modal::CYCLE, false),
+            Meaning::ReturnLevel => state.is(modal::RETURN_LEVEL, code),
+            Meaning::SurfaceSpeed(on) => state.is(modal::SURFACE_SPEED, on) || is_replaced(),
             Meaning::OneBlock if self.is_code(code, &[loc::SPINDLE_MAX_CODE]) => false,
             Meaning::OneBlock => {
                 let stays = |word: &Word| !matches!(word.0, G | M | N) && has(edit.after, word.0);
                 !(self.is_code(code, &[loc::DWELL_CODE]) && edit.before.iter().any(stays))
             }
             Meaning::ToolLength if self.codes.takes_length(code) => {
-                matches!(state.length, Length::Unsaid | Length::Taken)
-                    && state.tip_control == Some(false)
+                matches!(state.length(), Length::Unsaid | Length::Taken)
+                    && state.is(modal::TCP, false)
             }
             Meaning::ToolLength => {
                 is_replaced() || edit.put_in(G).any(|new| self.meaning(new) == Meaning::TipControl)
@@ -313,7 +313,7 @@ impl Control {
     /// read anew.
     fn makes_another_speed(&self, code: FunctionCode) -> bool {
         match self.meaning(code) {
-            Meaning::SurfaceSpeed(on) => self.state.surface_speed != Some(on),
+            Meaning::SurfaceSpeed(on) => !self.state.is(modal::SURFACE_SPEED, on),
             _ => false,
         }
     }
@@ -326,7 +326,7 @@ impl Control {
                 _ => None,
             })
         };
-        let mode = modes().last().or(self.state.feed_mode);
+        let mode = modes().last().or(self.state.get(modal::FEED_MODE));
         mode == Some(FeedMode::InverseTime)
     }
 
@@ -365,7 +365,7 @@ impl Control {
         let said = functions(edit.after.iter(), G).filter(is_level).last();
         self.commons.read(loc::CYCLE_RETURN_CODES) == CycleReturnCodes::Yes
             && initial.is_some()
-            && said.or(self.state.return_level) == initial
+            && said.or(self.state.get(modal::RETURN_LEVEL)) == initial
     }
 
     /// The control does not have what an edit has taken out: it is said again.
@@ -378,7 +378,7 @@ impl Control {
         let is_cycle = edit.had(|code| self.meaning(code) == Meaning::Cycle);
         if is_cycle && edit.changed().next().is_some() {
             // The next hole says all data of the cycle.
-            self.state.cycle = None;
+            self.state.forget(modal::CYCLE_CODE, Source::Author);
         }
         self.owe_auxiliaries(edit);
     }
@@ -390,18 +390,18 @@ impl Control {
         }
         let state = &mut self.state;
         match meaning {
-            Meaning::Plane(_) => state.plane = None,
-            Meaning::Distance(_) => state.distance = None,
-            Meaning::Unit(_) => state.unit = None,
+            Meaning::Plane(_) => state.forget(modal::PLANE, Source::Author),
+            Meaning::Distance(_) => state.forget(modal::DISTANCE, Source::Author),
+            Meaning::Unit(_) => state.forget(modal::UNITS, Source::Author),
             Meaning::FeedMode(_) => {
-                state.feed_mode = None;
+                state.forget(modal::FEED_MODE, Source::Author);
                 state.doubt(F);
             }
-            Meaning::Diameters => state.x_is_as_written = false,
-            Meaning::Compensation(_) => state.compensation = None,
-            Meaning::CycleOff => state.in_cycle = None,
+            Meaning::Diameters => state.forget(modal::DIAMETER_MODE, Source::Author),
+            Meaning::Compensation(_) => state.forget(modal::CUTTER_COMP, Source::Author),
+            Meaning::CycleOff => state.forget(modal::CYCLE, Source::Author),
             Meaning::Frame => {
-                state.fixture = None;
+                state.forget(modal::WORK_OFFSET, Source::Author);
                 let cause = self.block.cause.whole();
                 self.owe(Function::WorkOffset, |control| {
                     control.block.g(code, cause);
@@ -417,7 +417,7 @@ impl Control {
         let is_replaced = edit.put_in(M).next().is_some();
         let lost: Vec<Word> = edit.lost().collect();
         let codes = || functions(lost.iter(), M).filter(|_| !is_replaced);
-        let by_side = self.state.side_is_counted == Some(true);
+        let by_side = self.state.is(modal::MASTER_IS_SUB, true);
         let turns = |code: &FunctionCode| {
             self.codes.rotation(*code, by_side).is_some()
                 || self.is_code(*code, &[loc::SPINDLE_DEFAULT_CODE])

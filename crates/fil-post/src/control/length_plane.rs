@@ -14,7 +14,7 @@ use fil_machine::{FunctionCode, Letter};
 use super::Control;
 use super::word_address::{compensation, modes};
 use crate::cause::Cause;
-use crate::control_state::{Meaning, text};
+use crate::control_state::{Meaning, modal, text};
 use crate::errors::PostCode;
 use crate::operation::Operation;
 
@@ -52,7 +52,7 @@ pub fn is_left(control: &Control) -> bool {
 /// True where another plane is in force, or may be: behind a text that can't be read. What a program
 /// begins in is the matter of the machine, which says its plane or leaves it to the control.
 fn may_be_another(control: &Control, plane: Plane) -> bool {
-    match control.state.plane {
+    match control.state.get(modal::PLANE) {
         Some(now) => now != plane,
         None => control.commons.read(loc::CIRCLE_PLANE).is_some(),
     }

@@ -51,7 +51,7 @@ use nalgebra::Rotation3;
 
 use crate::block::Block;
 use crate::cause::Cause;
-use crate::control_state::{Codes, Compensation, ControlState, Meaning};
+use crate::control_state::{Codes, Compensation, ControlState, Meaning, Source, modal};
 use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
 use crate::tape::Tape;
@@ -223,7 +223,8 @@ impl Control {
             self.follow_unit_of_machine()?;
             contradictions::check(&self.commons)?;
             self.codes = Codes::from_commons(&self.commons);
-            self.tables.format_feed(self.state.feed_mode.unwrap_or(FeedMode::PerMinute));
+            self.tables
+                .format_feed(self.state.get(modal::FEED_MODE).unwrap_or(FeedMode::PerMinute));
             self.straight = false;
         }
         Ok(())
@@ -450,7 +451,7 @@ impl Control {
     #[inline]
     pub fn check_forgotten(&mut self) {
         if self.commons.last_output(G) == EMPTY {
-            self.state.motion = None;
+            self.state.forget(modal::MOTION, Source::Post);
         }
     }
 

@@ -6,7 +6,7 @@ use fil_machine::commons::{EMPTY, Kind, LAST_OUTPUT};
 use fil_machine::locations::{self as loc, RapidSplit};
 
 use super::Control;
-use crate::control_state::{Length, Levels, Meaning, Place};
+use crate::control_state::{Length, Levels, Meaning, Place, modal};
 use crate::errors::PostCode;
 
 impl Control {
@@ -27,12 +27,12 @@ impl Control {
 
     /// X, Y and Z may be those of the tip in the part: tool-tip control is on, or nobody knows.
     pub fn may_name_tip(&self) -> bool {
-        self.tables.tip_output && self.state.tip_control != Some(false)
+        self.tables.tip_output && !self.state.is(modal::TCP, false)
     }
 
     /// X, Y and Z may count in a tilted frame: one is in force, or nobody knows.
     pub fn may_be_tilted(&self) -> bool {
-        self.tables.frame_output && self.state.tilted != Some(false)
+        self.tables.frame_output && !self.state.is(modal::WORK_PLANE, false)
     }
 
     /// Where an axis stands, values of the tape.
@@ -81,12 +81,12 @@ impl Control {
     pub fn ready_length(&mut self) -> Result<()> {
         let tip = self.tables.tip_output;
         let is_called = self.waiting.length_offset.is_some() || tip;
-        let message = match self.state.length {
+        let message = match self.state.length() {
             Length::OfAnotherTool => "a text has changed the tool, and nothing calls its length",
             _ if is_called => return Ok(()),
             Length::Unsaid | Length::Called => return Ok(()),
             Length::Taken => "a text has taken the length of the tool off",
-            Length::Ended => match self.state.called_offset {
+            Length::Ended => match self.state.get(modal::LENGTH_OFFSET) {
                 Some(offset) => {
                     self.await_length(Some((offset, self.block.cause)));
                     self.state.doubt(self.tables.axis(2).letter);
@@ -104,7 +104,7 @@ impl Control {
     /// The last motion was at feed: the tool may stand in the part.
     fn was_at_feed(&self) -> bool {
         let rapid = [loc::RAPID_CODE_XY, loc::RAPID_CODE_Z].map(|at| self.code_if_any(at));
-        match self.state.motion {
+        match self.state.get(modal::MOTION) {
             Some(code) => self.meaning(code) == Meaning::Motion && !rapid.contains(&Some(code)),
             None => self.klartext.at_feed,
         }

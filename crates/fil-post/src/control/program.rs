@@ -13,7 +13,7 @@ use fil_machine::{Commons, FunctionCode, user_blocks};
 
 use super::Control;
 use crate::cause::Cause;
-use crate::control_state::{Compensation, ControlState, Distance};
+use crate::control_state::{Compensation, ControlState, Distance, Source, modal};
 use crate::errors::PostCode;
 
 /// Most characters of a leader.
@@ -166,7 +166,7 @@ pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
     if control.state.compensates() {
         return PostCode::CompensationOn.err("at the end of the program");
     }
-    if may_compensate && control.state.compensation.is_none() {
+    if may_compensate && control.state.get(modal::CUTTER_COMP).is_none() {
         return PostCode::CompensationOn
             .err("at the end of the program, with the blocks of OPSKIP or without them");
     }
@@ -175,7 +175,7 @@ pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
     }
     control.write_block()?;
     close(control)?;
-    control.state.ended = true;
+    control.state.set(modal::PROGRAM_END, true);
     Ok(())
 }
 
@@ -259,12 +259,18 @@ impl Modes {
     const UNSAID: Modes = Modes(None, None, None);
 
     fn of(control: &Control) -> Self {
-        Modes(control.state.distance, control.state.feed_mode, control.state.plane)
+        Modes(
+            control.state.get(modal::DISTANCE),
+            control.state.get(modal::FEED_MODE),
+            control.state.get(modal::PLANE),
+        )
     }
 
     fn put(self, control: &mut Control) {
         let state = &mut control.state;
-        (state.distance, state.feed_mode, state.plane) = (self.0, self.1, self.2);
+        state.set_if_known(modal::DISTANCE, self.0, Source::NotCommanded);
+        state.set_if_known(modal::FEED_MODE, self.1, Source::NotCommanded);
+        state.set_if_known(modal::PLANE, self.2, Source::NotCommanded);
     }
 }
 
@@ -274,7 +280,7 @@ impl Modes {
 fn say_what_is_unsaid(control: &mut Control, at_start: Modes) {
     let state = &control.state;
     // Behind a text that may have changed any mode, each is said where it is needed.
-    if state.compensation.is_none() || !state.x_is_as_written {
+    if state.get(modal::CUTTER_COMP).is_none() || !state.is(modal::DIAMETER_MODE, true) {
         return;
     }
     let said = Modes::of(control);

@@ -6,7 +6,7 @@ use fil_machine::letters::S;
 use fil_machine::locations as loc;
 
 use super::Control;
-use crate::control_state::{Meaning, text};
+use crate::control_state::{Meaning, Source, modal, text};
 use crate::operation::SpindleSpeed;
 
 /// Learns from the words of a block, behind what its functions do. `skipped`: it may be left out.
@@ -18,7 +18,11 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
     };
     let said = words.iter().rev().find(|(letter, _)| *letter == S).map(|(_, value)| *value);
     if named(loc::SPINDLE_MAX_CODE) {
-        control.state.speed_limit = said.filter(|_| !skipped).or(control.state.speed_limit);
+        control.state.set_if_known(
+            modal::SPEED_LIMIT,
+            said.filter(|_| !skipped).or(control.state.get(modal::SPEED_LIMIT)),
+            Source::Author,
+        );
         return;
     }
     let is_of_speed = |code| matches!(control.meaning(code), Meaning::SurfaceSpeed(_));
@@ -32,7 +36,7 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
     if pauses || said.is_none() && !changes {
         return;
     }
-    let by_surface = control.state.surface_speed == Some(true);
+    let by_surface = control.state.is(modal::SURFACE_SPEED, true);
     let is_open = control.state.surface_speed_is_open();
     let is_speed = !skipped && !is_open && control.commons.read(loc::SPINDLE_DIRECT_RPM);
     control.speed = match said.filter(|_| is_speed) {
@@ -47,7 +51,6 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
 fn end_surface_speed(control: &mut Control) {
     if matches!(control.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_))) {
         control.speed = None;
-        control.state.surface_speed = None;
-        control.state.counted_surface = false;
+        control.state.forget(modal::SURFACE_SPEED, Source::Author);
     }
 }

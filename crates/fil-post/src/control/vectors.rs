@@ -10,6 +10,7 @@ use fil_machine::locations::ControlFamily;
 
 use super::Control;
 use super::word_address::motion::{Motion, note_axis_words};
+use crate::control_state::modal;
 use crate::errors::PostCode;
 
 /// What helps where a vector can't say the direction.
@@ -23,13 +24,13 @@ const CLEARLY: f64 = 0.5;
 
 /// True while I, J and K are the direction of the tool, and no centers.
 pub(super) fn are_in_force(control: &Control) -> bool {
-    control.tables.tip_vectors && control.state.tip_control == Some(true)
+    control.tables.tip_vectors && control.state.is(modal::TCP, true)
 }
 
 /// True when the motion at hand is to say the direction of the tool by a vector.
 pub(super) fn are_due(control: &Control, motion: &Motion) -> bool {
     control.tip.by_vector
-        && control.state.tip_control == Some(true)
+        && control.state.is(modal::TCP, true)
         && !motion.axes.and(AxisSet::ROTARY).and(control.tables.present()).is_empty()
 }
 

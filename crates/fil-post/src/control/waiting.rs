@@ -9,7 +9,7 @@ use fil_machine::locations::{ControlFamily, Placement};
 use super::Control;
 use crate::block::Block;
 use crate::cause::Cause;
-use crate::control_state::Length;
+use crate::control_state::{Length, modal};
 use crate::errors::PostCode;
 
 /// What words that wait command.
@@ -76,7 +76,7 @@ impl Control {
     /// Has a tool length offset called with the next Z motion.
     pub(crate) fn await_length(&mut self, offset: Option<(i64, Cause)>) {
         self.waiting.length_offset = offset;
-        self.waiting.lengths_said = self.state.lengths_said;
+        self.waiting.lengths_said = self.state.groups().written(modal::LENGTH_WORD);
     }
 
     /// Refuses words of others that move Z while the length of the tool waits for a motion of the
@@ -85,12 +85,12 @@ impl Control {
     /// # Errors
     /// They do.
     pub(super) fn refuse_without_length(&self, words: &[(Letter, f64)]) -> Result<()> {
-        let is_due = match self.state.length {
+        let is_due = match self.state.length() {
             Length::Ended => true,
             _ => self.waiting.length_offset.is_some(),
         };
         let is_named = self.waiting.length_offset.is_some()
-            && self.state.lengths_said != self.waiting.lengths_said;
+            && self.state.groups().written(modal::LENGTH_WORD) != self.waiting.lengths_said;
         let z = self.tables.axis(2).letter;
         let moves_z = words.iter().any(|(letter, _)| self.codes.moved_by(*letter) == z);
         if !is_due || is_named || !moves_z || !self.codes.moves_in_part(words) {

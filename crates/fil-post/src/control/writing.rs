@@ -15,7 +15,7 @@ use super::{
     speed_of_others, texts,
 };
 use crate::cause::Cause;
-use crate::control_state::{Place, text};
+use crate::control_state::{Place, Source, modal, text};
 use crate::errors::PostCode;
 
 /// The function of Klartext that goes along the tool out of the part, under tool-tip control too.
@@ -26,7 +26,6 @@ const RETRACT: &str = "M140";
 pub struct BeforeOthers {
     compensated: bool,
     plane: Option<Plane>,
-    tool_changes: u32,
     lengths_said: u32,
     /// Where the rotary axes stand.
     rotary: [Option<f64>; 2],
@@ -204,7 +203,7 @@ impl Control {
 
     /// Takes the format of F in the mode that words or texts of others have left in force.
     fn follow_feed_mode(&mut self) {
-        if let Some(mode) = self.state.feed_mode {
+        if let Some(mode) = self.state.get(modal::FEED_MODE) {
             self.tables.format_feed(mode);
         }
     }
@@ -212,11 +211,12 @@ impl Control {
     /// The lengths of a SINUMERIK's tool count along the axes of its plane: where others have left
     /// that of a lathe, the next motion says it again.
     fn take_plane_back(&mut self, before: &BeforeOthers) {
-        let changed = self.state.plane.is_some() && self.state.plane != before.plane;
+        let changed =
+            self.state.get(modal::PLANE).is_some() && self.state.get(modal::PLANE) != before.plane;
         let is_lathe = self.tables.family == ControlFamily::Sinumerik
             && self.commons.read(loc::LATHE_DIAMETER);
         if changed && is_lathe {
-            self.state.x_is_as_written = false;
+            self.state.forget(modal::DIAMETER_MODE, Source::Post);
         }
     }
 
@@ -226,11 +226,10 @@ impl Control {
     /// As [`Control::begin`].
     pub fn before_others(&mut self) -> Result<BeforeOthers> {
         self.begin()?;
-        (self.state.compensation_said, self.state.tool_said) = (false, false);
+        self.state.foreign_begins();
         Ok(BeforeOthers {
             compensated: self.is_compensated(),
-            plane: self.state.plane,
-            tool_changes: self.state.tool_changes,
+            plane: self.state.get(modal::PLANE),
             lengths_said: self.lengths_said(),
             rotary: [3, 4].map(|number| self.stands(number)),
             frame: self.frame_of_tip(),
@@ -239,12 +238,12 @@ impl Control {
 
     fn frame_of_tip(&self) -> Option<Frame> {
         let state = &self.state;
-        (state.tip_control == Some(true)).then(|| Frame {
-            plane: state.plane,
-            unit: state.unit,
-            work_offset: state.fixture,
-            tilted: state.tilted,
-            in_cycle: state.in_cycle,
+        (state.is(modal::TCP, true)).then(|| Frame {
+            plane: state.get(modal::PLANE),
+            unit: state.get(modal::UNITS),
+            work_offset: state.get(modal::WORK_OFFSET),
+            tilted: state.get(modal::WORK_PLANE),
+            in_cycle: state.get(modal::CYCLE),
             shifted: matches!(self.place(0), Place::Shifted(_)),
             of_machine: (0..5).any(|number| self.place(number) == Place::Clear),
         })
@@ -255,14 +254,14 @@ impl Control {
     fn lengths_said(&self) -> u32 {
         match self.tables.family {
             ControlFamily::Sinumerik => u32::from(self.sinumerik.edge() == Some(0)),
-            _ => self.state.lengths_said,
+            _ => self.state.groups().written(modal::LENGTH_WORD),
         }
     }
 
     /// Refuses what words or texts of others have changed in the frame of tool-tip control,
     /// which goes on: controls differ in what that does.
     fn refuse_under_tip_control(&self, before: &BeforeOthers) -> Result<()> {
-        let changed = self.state.tool_changes != before.tool_changes;
+        let changed = self.state.groups().changed_since_foreign(modal::TOOL_CHANGED);
         if before.frame.is_some() && (changed || self.lengths_said() != before.lengths_said) {
             return PostCode::TipControl.err_with(
                 "a text changes the tool, names a length or takes it off, and tool-tip control \
@@ -288,7 +287,9 @@ impl Control {
     /// # Errors
     /// They did.
     pub fn refuse_changes(&self, before: BeforeOthers) -> Result<()> {
-        if self.waiting.has(Function::Compensation) && self.state.compensation_said {
+        if self.waiting.has(Function::Compensation)
+            && self.state.groups().changed_since_foreign(modal::CUTTER_COMP)
+        {
             return PostCode::CompensationOn.err(
                 "a text switches it while CUTCOM waits for its motion, which would switch it again",
             );
@@ -297,14 +298,17 @@ impl Control {
         if !before.compensated {
             return Ok(());
         }
-        if self.state.tool_changes != before.tool_changes || self.state.tool_said {
+        let groups = self.state.groups();
+        if groups.changed_since_foreign(modal::TOOL_CHANGED)
+            || groups.changed_since_foreign(modal::TOOL_WORD)
+        {
             return PostCode::CompensationOn
                 .err("at a tool change; CUTCOM/OFF must come before it");
         }
         if [3, 4].map(|number| self.stands(number)) != before.rotary {
             return PostCode::CompensationOn.err("where a text turns the machine");
         }
-        match (before.plane, self.state.plane) {
+        match (before.plane, self.state.get(modal::PLANE)) {
             (Some(one), Some(other)) if one != other => {
                 PostCode::CompensationOn.err("at a change of the plane")
             }
@@ -372,7 +376,7 @@ impl Control {
     /// Refuses a block after M2 or M30: the control would never read it.
     #[inline]
     pub(super) fn refuse_after_end(&self) -> Result<()> {
-        if self.state.ended {
+        if self.state.may_be(modal::PROGRAM_END, true) {
             return PostCode::AfterEnd.err("the program has ended before this block");
         }
         Ok(())

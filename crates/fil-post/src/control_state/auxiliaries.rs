@@ -4,7 +4,10 @@
 use fil_machine::FunctionCode;
 
 use super::codes::Codes;
-use super::{ControlState, Rotation, TOOL_CHANGE};
+use super::modal::{
+    AXIS_CLAMP, GEAR, MASTER_IS_SUB, PROGRAM_END, SPINDLE, SPINDLE_HALTED, TOOL_CHANGED,
+};
+use super::{ControlState, Rotation, Source, TOOL_CHANGE};
 
 /// They call a program, or come back from one.
 pub const CALLS: [FunctionCode; 4] = [
@@ -17,41 +20,46 @@ pub const CALLS: [FunctionCode; 4] = [
 impl ControlState {
     /// A tool change by its function came since the spindle was turned: many machines stop it.
     pub fn tool_is_changed_since_turned(&self) -> bool {
-        self.turned_behind != self.tool_changes
+        self.groups.written(TOOL_CHANGED) > self.groups.written(SPINDLE)
     }
 
     /// The spindle has been told how to turn.
     pub fn turns(&mut self, rotation: Rotation) {
-        self.rotation = rotation;
-        self.turned_behind = self.tool_changes;
-        self.halted = false;
+        self.set(SPINDLE, rotation);
+        self.set(SPINDLE_HALTED, false);
     }
 
     /// Learns what an auxiliary function does. A call of a subprogram may do anything.
-    pub fn learn_auxiliary(&mut self, code: FunctionCode, codes: &Codes) {
+    pub fn learn_auxiliary(&mut self, code: FunctionCode, codes: &Codes, source: Source) {
         const END: [FunctionCode; 2] = [FunctionCode::whole(2), FunctionCode::whole(30)];
-        self.ended |= END.contains(&code);
+        if END.contains(&code) {
+            self.set(PROGRAM_END, true);
+        }
         if codes.chooses_spindle(code) {
             // Which one is counted then, and how it turns, says who writes the code.
-            self.side_is_counted = None;
-            self.rotation = Rotation::InDoubt;
+            self.forget(MASTER_IS_SUB, source);
+            self.set(SPINDLE, Rotation::InDoubt);
         }
-        if let Some(rotation) = codes.rotation(code, self.side_is_counted == Some(true)) {
+        if let Some(rotation) = codes.rotation(code, self.is(MASTER_IS_SUB, true)) {
             self.turns(rotation);
         }
-        self.halted |= codes.stops_program(code);
-        self.may_be_clamped = codes.clamps(code).unwrap_or(self.may_be_clamped);
+        if codes.stops_program(code) {
+            self.set(SPINDLE_HALTED, true);
+        }
+        if let Some(clamps) = codes.clamps(code) {
+            self.set(AXIS_CLAMP, clamps);
+        }
         if codes.is_spindle_range(code) {
-            self.range = Some(code);
+            self.set(GEAR, code);
         }
         if code == TOOL_CHANGE {
             self.has_tool(None);
-            self.tool_changes += 1;
             // A machine changes a tool with the spindle standing, and leaves it so.
-            self.rotation = Rotation::Standing;
+            self.set(SPINDLE, Rotation::Standing);
+            self.set(TOOL_CHANGED, true);
         }
         if CALLS.contains(&code) {
-            self.forget();
+            self.doubt_all(source);
         }
     }
 }

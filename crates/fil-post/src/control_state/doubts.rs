@@ -76,6 +76,8 @@ pub(super) struct Doubts {
     levels: [Option<Levels>; 6],
     /// Where axes stand whose last output value a script has made EMPTY.
     emptied: [Option<(Letter, f64)>; 3],
+    /// What has lost the axes came back to where it began: a turning cycle of an author.
+    pub(super) returned: bool,
 }
 
 impl Doubts {

@@ -3,7 +3,11 @@
 use fil_machine::address::Addresses;
 use fil_machine::{FunctionCode, letters};
 
-use super::{Codes, Compensation, ControlState, Distance, Meaning};
+use super::modal::{
+    CUTTER_COMP, CUTTER_PATH, CYCLE, CYCLE_CODE, DIAMETER_MODE, DISTANCE, FEED_MODE, LENGTH_WORD,
+    MOTION, PLANE, RETURN_LEVEL, SURFACE_SPEED, TCP, UNITS, WORK_OFFSET, WORK_PLANE,
+};
+use super::{Codes, Compensation, ControlState, CutterPath, Distance, Meaning, Source};
 use crate::block::Block;
 
 impl ControlState {
@@ -11,19 +15,17 @@ impl ControlState {
     #[inline]
     pub fn learn_block(&mut self, block: &Block, codes: &Codes, addresses: &Addresses) {
         if !block.g_codes().is_empty() {
-            let said_by_others = self.lengths_said;
             for (code, _) in block.g_codes() {
-                self.learn_code(*code, codes);
+                self.learn_code(*code, codes, Source::Post);
             }
-            self.lengths_said = said_by_others;
         }
         for (code, _) in block.m_codes() {
-            self.learn_auxiliary(*code, codes);
+            self.learn_auxiliary(*code, codes, Source::Post);
         }
         if !self.doubts.is_empty() {
             self.trust_words(block, addresses);
         }
-        if self.distance != Some(Distance::Absolute) {
+        if !self.is(DISTANCE, Distance::Absolute) {
             self.doubt_axes();
         }
     }
@@ -36,91 +38,97 @@ impl ControlState {
 
     /// Learns what a preparatory function does.
     #[inline]
-    pub fn learn_code(&mut self, code: FunctionCode, codes: &Codes) {
+    pub fn learn_code(&mut self, code: FunctionCode, codes: &Codes, source: Source) {
         match codes.meaning(code) {
             Meaning::Motion => {
-                self.motion = Some(code);
+                self.set(MOTION, code);
                 if codes.motion_ends_cycle() {
-                    self.in_cycle = Some(false);
-                } else if self.in_cycle == Some(true) && !codes.keeps_cycles() {
+                    self.set(CYCLE, false);
+                } else if self.is(CYCLE, true) && !codes.keeps_cycles() {
                     // Some controls leave the cycle, some don't.
-                    self.in_cycle = None;
+                    self.forget(CYCLE, source);
                 }
             }
-            Meaning::Plane(plane) => self.plane = Some(plane),
-            Meaning::Distance(distance) => self.distance = Some(distance),
+            Meaning::Plane(plane) => self.set(PLANE, plane),
+            Meaning::Distance(distance) => self.set(DISTANCE, distance),
             Meaning::Unit(unit) => {
-                if self.unit != Some(unit) {
+                if !self.is(UNITS, unit) {
                     self.doubts.add_all();
                 }
-                self.unit = Some(unit);
+                self.set(UNITS, unit);
             }
             Meaning::FeedMode(mode) => {
                 // Some controls forget F even when the mode stays.
                 self.doubt(letters::F);
-                self.feed_mode = Some(mode);
+                self.set(FEED_MODE, mode);
             }
             Meaning::Compensation(side) => {
-                self.compensation_ends = side == Compensation::Off
-                    && (self.compensation_ends || self.compensates() && self.compensation_begun);
-                self.compensation_said = true;
-                self.compensation = Some(side);
-                self.compensation_begun = false;
+                let leaves = self.may_be(CUTTER_PATH, CutterPath::Leaving)
+                    || self.compensates() && self.is(CUTTER_PATH, CutterPath::Moved);
+                let path = match side == Compensation::Off && leaves {
+                    true => CutterPath::Leaving,
+                    false => CutterPath::Unmoved,
+                };
+                self.set(CUTTER_PATH, path);
+                self.set(CUTTER_COMP, side);
             }
             Meaning::Cycle => {
-                self.in_cycle = Some(true);
-                self.cycle = Some(code);
-                self.motion = None;
+                self.set(CYCLE, true);
+                self.set(CYCLE_CODE, code);
+                self.forget(MOTION, source);
             }
             Meaning::CycleOff => {
-                self.in_cycle = Some(false);
-                self.motion = None;
+                self.set(CYCLE, false);
+                self.forget(MOTION, source);
             }
             Meaning::SurfaceSpeed(on) => {
-                self.surface_speed = Some(on);
-                self.counted_surface = on;
+                self.set(SURFACE_SPEED, on);
                 if codes.speeds_are_feeds() {
                     self.doubt(letters::F);
                 }
-                self.feed_mode = codes.feed_behind_speed(code, self.feed_mode);
+                let mode = codes.feed_behind_speed(code, self.get(FEED_MODE));
+                self.groups.set_if_known(FEED_MODE, mode, source);
             }
-            Meaning::Diameters => self.x_is_as_written = true,
+            Meaning::Diameters => self.set(DIAMETER_MODE, true),
             Meaning::OneBlock => {}
             Meaning::ReturnLevel => {
-                self.return_level = Some(code);
+                self.set(RETURN_LEVEL, code);
                 self.doubt(letters::R);
             }
             Meaning::Turning => {
-                self.motion = None;
+                self.forget(MOTION, source);
                 self.doubt_axes();
                 self.doubt(letters::F);
             }
             Meaning::ToolLength => {
                 self.doubt(letters::XYZ[2]);
                 self.learn_length(code, codes);
-                if self.tip_control != Some(false) {
-                    self.tip_control = Some(false);
+                if source == Source::Author {
+                    self.set(LENGTH_WORD, true);
+                }
+                if !self.is(TCP, false) {
+                    self.set(TCP, false);
                     self.doubt_axes();
                 }
             }
             Meaning::TipControl => {
-                self.tip_control = Some(true);
+                self.set(TCP, true);
                 self.calls_length(true);
                 self.doubt_axes();
             }
             Meaning::Frame => {
                 self.doubt_axes();
                 if codes.is_fixture(code) {
-                    self.fixture = Some(code);
+                    self.set(WORK_OFFSET, code);
                 } else if !codes.keeps_fixture(code) {
-                    self.fixture = None;
+                    self.forget(WORK_OFFSET, source);
                 }
             }
             Meaning::Tilt => {
-                self.tilted = None;
+                self.forget(WORK_PLANE, source);
                 self.doubt_axes();
             }
-            Meaning::Unknown => self.forget(),
+            Meaning::Unknown => self.doubt_all(source),
         }
     }
 }

@@ -3,7 +3,8 @@
 use fil_machine::locations::{self as loc, ControlFamily, ToolFormat};
 use fil_machine::{Commons, FunctionCode, Letter, letters};
 
-use super::{Codes, ControlState};
+use super::modal::{LENGTH, LENGTH_OFFSET, LENGTH_WORD};
+use super::{Codes, ControlState, Source};
 
 /// What the length of the tool is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,21 +23,28 @@ pub enum Length {
     OfAnotherTool,
 }
 
+impl Length {
+    /// What must be reckoned with if either may be in force: what a motion may not be made with.
+    pub(super) fn or(self, other: Self) -> Self {
+        if matches!(other, Length::Unsaid | Length::Called) { self } else { other }
+    }
+}
+
 impl ControlState {
     /// The length of the tool is called, or taken off.
     pub fn calls_length(&mut self, on: bool) {
-        self.length = match (on, self.length) {
+        let length = match (on, self.length()) {
             (true, _) => Length::Called,
             (false, Length::Called | Length::Ended) => Length::Taken,
             (false, other) => other,
         };
+        self.set(LENGTH, length);
     }
 
     /// A function of the length stands in a block. Tool-tip control takes that of the last LOADTL,
     /// whatever another function has called.
     pub(super) fn learn_length(&mut self, code: FunctionCode, codes: &Codes) {
-        self.lengths_said += 1;
-        if self.length != Length::OfAnotherTool || !codes.tip_control {
+        if self.length() != Length::OfAnotherTool || !codes.tip_control {
             self.calls_length(!codes.takes_length(code));
         }
     }
@@ -44,42 +52,37 @@ impl ControlState {
     /// A word of others names the offset of a length; `calls` where it stands beside the function
     /// of the length.
     pub(super) fn names_length(&mut self, value: f64, calls: bool) {
-        self.lengths_said += 1;
-        self.called_offset = (calls && value.fract() == 0.0).then_some(value as i64);
+        let offset = (calls && value.fract() == 0.0).then_some(value as i64);
+        self.set(LENGTH_WORD, true);
+        self.groups.set_if_known(LENGTH_OFFSET, offset, Source::Author);
         self.doubt(letters::H);
     }
 
     /// A word of others names tool and offset in one: T0303. T0300 takes the offset off.
     pub(super) fn length_by_tool_word(&mut self, value: f64) {
-        self.length = if value % 100.0 == 0.0 { Length::Taken } else { Length::Called };
+        self.set(LENGTH, if value % 100.0 == 0.0 { Length::Taken } else { Length::Called });
     }
 
     /// LOADTL has changed the tool, whose length waits to be called; `by_its_word`: it is called
     /// already.
     pub fn length_of_new_tool(&mut self, by_its_word: bool) {
-        if by_its_word || self.length == Length::OfAnotherTool {
-            self.length = Length::Unsaid;
+        if by_its_word || self.length() == Length::OfAnotherTool {
+            self.set(LENGTH, Length::Unsaid);
         }
     }
 
     /// A position of the machine has been reached by axes of which `moves` is true.
     pub fn length_ends_at_machine(&mut self, codes: &Codes, moves: impl Fn(Letter) -> bool) {
-        if codes.positions_end_lengths && self.length == Length::Called && moves(letters::XYZ[2]) {
-            self.length = Length::Ended;
+        if codes.positions_end_lengths && self.length() == Length::Called && moves(letters::XYZ[2])
+        {
+            self.set(LENGTH, Length::Ended);
         }
     }
 
     /// Words of others have changed the tool, and called no length.
     pub(super) fn length_is_of_another_tool(&mut self, codes: &Codes) {
         if codes.calls_lengths {
-            self.length = Length::OfAnotherTool;
-        }
-    }
-
-    /// Behind blocks that may be skipped the length is as it must not be, if it is so either way.
-    pub(super) fn agree_on_length(&mut self, other: Length) {
-        if !matches!(other, Length::Unsaid | Length::Called) {
-            self.length = other;
+            self.set(LENGTH, Length::OfAnotherTool);
         }
     }
 }

@@ -11,6 +11,7 @@ mod doubts;
 mod learning;
 mod length;
 mod levels;
+pub mod modal;
 mod others;
 mod skip;
 pub(crate) mod text;
@@ -27,6 +28,11 @@ use doubts::Doubts;
 pub use doubts::Place;
 pub use length::Length;
 pub use levels::Levels;
+use modal::{
+    CUTTER_COMP, CUTTER_PATH, FEED_MODE, Groups, LENGTH, MOTION, Modal, Of, PLANE, PROGRAM_END,
+    SPINDLE, SURFACE_SPEED, TOOL, UNITS,
+};
+pub use modal::{Know, Source};
 
 /// How coordinates count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,6 +52,18 @@ pub enum Compensation {
     Left,
     /// Right of the path (G42).
     Right,
+}
+
+/// Where the path stands in cutter compensation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CutterPath {
+    /// No motion has been made in its plane since G40, G41 or G42.
+    Unmoved,
+    /// A motion has been made since compensation was switched on.
+    Moved,
+    /// Compensation that had begun was switched off, and no motion in its plane has been made
+    /// since: the control comes back to the path with the next one, which must be a line.
+    Leaving,
 }
 
 /// Which way the spindle turns, as far as a tap depends on it.
@@ -101,83 +119,9 @@ const AXIS_LETTERS: [Letter; 9] = [
 ];
 
 /// The modes of the control and the words it has.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct ControlState {
-    /// The code of the last motion.
-    pub motion: Option<FunctionCode>,
-    /// The plane of arcs, cycles and cutter compensation.
-    pub plane: Option<Plane>,
-    /// How coordinates count.
-    pub distance: Option<Distance>,
-    /// The unit of lengths.
-    pub unit: Option<Unit>,
-    /// What F means.
-    pub feed_mode: Option<FeedMode>,
-    /// Tool-tip control.
-    pub tip_control: Option<bool>,
-    /// X, Y and Z count in a tilted frame.
-    pub tilted: Option<bool>,
-    /// Cutter compensation.
-    pub compensation: Option<Compensation>,
-    /// A motion has been made since compensation was switched on.
-    pub compensation_begun: bool,
-    /// Compensation that had begun was switched off, and no motion in its plane has been made
-    /// since: the control comes back to the path with the next one, which must be a line.
-    pub compensation_ends: bool,
-    /// A code of compensation was said since somebody asked.
-    pub compensation_said: bool,
-    /// A T word that changes the tool by itself was said by others since somebody asked.
-    pub tool_said: bool,
-    /// A canned cycle is in force: each position drills a hole.
-    pub in_cycle: Option<bool>,
-    /// The code of the last canned cycle.
-    pub cycle: Option<FunctionCode>,
-    /// Tool changes so far.
-    pub tool_changes: u32,
-    /// How often words or texts have named a length of the tool, or taken it off.
-    pub lengths_said: u32,
-    /// The tool in the spindle.
-    pub tool: Option<i64>,
-    /// The tools between which the skip switch has decided, or between lengths of one.
-    pub tools_by_switch: Option<[Option<i64>; 2]>,
-    /// The offset that was called with it.
-    pub tool_offset: Option<i64>,
-    /// The length of the tool, as far as functions have called it or taken it off.
-    pub length: Length,
-    /// The offset that it was called with last; `None` when it is not known.
-    pub called_offset: Option<i64>,
-    /// The code of the work offset in force; `None` when it is not known.
-    pub fixture: Option<FunctionCode>,
-    /// The highest speed of the spindle, turns a minute, as far as the program has said it.
-    pub speed_limit: Option<f64>,
-    /// The code of the spindle range in force; `None` when it is not known.
-    pub range: Option<FunctionCode>,
-    /// How the spindle was last told to turn.
-    pub rotation: Rotation,
-    /// The control counts the second spindle of a lathe, or the main one; `None` where nothing
-    /// has said it.
-    pub side_is_counted: Option<bool>,
-    /// What has lost the axes came back to where it began: a turning cycle of others.
-    pub returned: bool,
-    /// Tool changes by their function before the spindle was turned last.
-    turned_behind: u32,
-    /// A stop of the program came since the spindle was turned: some machines stop it, too.
-    pub halted: bool,
-    /// A function has clamped the rotary axes, and none has released them since, or only one
-    /// that may be skipped.
-    pub may_be_clamped: bool,
-    /// S is a surface speed; `None` where nothing has said it, or only blocks that may be skipped.
-    pub surface_speed: Option<bool>,
-    /// S was a surface speed when that was known last.
-    pub counted_surface: bool,
-    /// X counts as the post writes it: on a lathe as a diameter, in a transformation as a radius.
-    pub x_is_as_written: bool,
-    /// A hole cycle or an arc of a SINUMERIK has left the plane that it alone needs.
-    pub in_plane_of_its_own: bool,
-    /// The code of the level that cycles return to; `None` when it is not known.
-    pub return_level: Option<FunctionCode>,
-    /// The program has ended: M2, M30.
-    pub ended: bool,
+    groups: Groups,
     /// Letters whose last output value is not what the control has.
     doubts: Doubts,
     /// State and last output values before the blocks that may be skipped.
@@ -188,46 +132,70 @@ impl ControlState {
     /// What a machine is taken to be in before its program says anything: modes
     /// that its settings name, no compensation, no cycle.
     pub fn at_start(feed_mode: FeedMode, plane: Option<Plane>, unit: Option<Unit>) -> Self {
-        ControlState {
-            motion: None,
-            plane,
-            distance: Some(Distance::Absolute),
-            unit,
-            feed_mode: Some(feed_mode),
-            tip_control: Some(false),
-            tilted: Some(false),
-            compensation: Some(Compensation::Off),
-            compensation_begun: false,
-            compensation_ends: false,
-            compensation_said: false,
-            tool_said: false,
-            in_cycle: Some(false),
-            cycle: None,
-            tool_changes: 0,
-            lengths_said: 0,
-            tool: None,
-            tools_by_switch: None,
-            tool_offset: None,
-            length: Length::Unsaid,
-            called_offset: None,
-            fixture: None,
-            speed_limit: None,
-            range: None,
-            rotation: Rotation::Unsaid,
-            side_is_counted: None,
-            returned: false,
-            turned_behind: 0,
-            halted: false,
-            may_be_clamped: false,
-            surface_speed: None,
-            counted_surface: false,
-            x_is_as_written: true,
-            in_plane_of_its_own: false,
-            return_level: None,
-            ended: false,
-            doubts: Doubts::default(),
-            before_skip: None,
-        }
+        let mut groups = Groups::at_start();
+        groups.set(FEED_MODE, feed_mode);
+        groups.set_if_known(PLANE, plane, Source::NotCommanded);
+        groups.set_if_known(UNITS, unit, Source::NotCommanded);
+        ControlState { groups, doubts: Doubts::default(), before_skip: None }
+    }
+
+    /// The value of a modal group, if it is known.
+    #[inline]
+    pub fn get<T: Modal>(&self, of: Of<T>) -> Option<T> {
+        self.groups.get(of)
+    }
+
+    /// True if a modal group certainly has a value.
+    #[inline]
+    pub fn is<T: Modal>(&self, of: Of<T>, value: T) -> bool {
+        self.groups.is(of, value)
+    }
+
+    /// True if a modal group may have a value.
+    #[inline]
+    pub fn may_be<T: Modal>(&self, of: Of<T>, value: T) -> bool {
+        self.groups.may_be(of, value)
+    }
+
+    /// A block gives a modal group a value.
+    #[inline]
+    pub fn set<T: Modal>(&mut self, of: Of<T>, value: T) {
+        self.groups.set(of, value);
+    }
+
+    /// A modal group may have any value.
+    pub fn forget<T>(&mut self, of: Of<T>, source: Source) {
+        self.groups.forget(of, source);
+    }
+
+    /// The same, or it becomes unknown.
+    pub fn set_if_known<T: Modal>(&mut self, of: Of<T>, value: Option<T>, source: Source) {
+        self.groups.set_if_known(of, value, source);
+    }
+
+    /// A turning cycle of an author has moved the axes, and returned to where it began.
+    pub fn axes_returned(&self) -> bool {
+        self.doubts.returned
+    }
+
+    /// All modal groups.
+    pub fn groups(&self) -> &Groups {
+        &self.groups
+    }
+
+    /// A block of an author begins: see [`Groups::changed_since_foreign`].
+    pub fn foreign_begins(&mut self) {
+        self.groups.foreign_begins();
+    }
+
+    /// How the spindle was last told to turn.
+    pub fn rotation(&self) -> Rotation {
+        self.get(SPINDLE).unwrap_or(Rotation::InDoubt)
+    }
+
+    /// Tool length offset, as far as functions have activated or canceled it.
+    pub fn length(&self) -> Length {
+        self.get(LENGTH).unwrap_or(Length::Unsaid)
     }
 
     /// True when the control is known to have the last output value of a letter.
@@ -254,7 +222,7 @@ impl ControlState {
 
     /// Cutter compensation is on.
     pub fn compensates(&self) -> bool {
-        matches!(self.compensation, Some(Compensation::Left | Compensation::Right))
+        matches!(self.get(CUTTER_COMP), Some(Compensation::Left | Compensation::Right))
     }
 
     /// The next motion says all axes: they stand where they stood, as far as the post itself
@@ -265,7 +233,7 @@ impl ControlState {
 
     /// The axes may have gone anywhere.
     pub fn lose_axes(&mut self) {
-        self.returned = false;
+        self.doubts.returned = false;
         AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.lose(letter));
     }
 
@@ -348,68 +316,39 @@ impl ControlState {
         self.doubts.place(letter, last)
     }
 
-    /// Nothing is known any more.
-    pub fn forget(&mut self) {
-        let mut doubts = std::mem::take(&mut self.doubts);
-        doubts.add_all();
-        AXIS_LETTERS.into_iter().for_each(|letter| doubts.lose(letter));
-        *self = ControlState {
-            motion: None,
-            plane: None,
-            distance: None,
-            unit: None,
-            feed_mode: None,
-            tip_control: None,
-            tilted: None,
-            compensation: None,
-            compensation_begun: self.compensation_begun,
-            compensation_ends: self.compensation_ends,
-            compensation_said: self.compensation_said,
-            tool_said: self.tool_said,
-            in_cycle: None,
-            cycle: None,
-            tool_changes: self.tool_changes,
-            lengths_said: self.lengths_said,
-            tool: None,
-            tools_by_switch: self.tools_by_switch,
-            tool_offset: None,
-            length: self.length,
-            called_offset: self.called_offset,
-            fixture: None,
-            speed_limit: self.speed_limit,
-            range: None,
-            rotation: self.rotation.doubted(),
-            side_is_counted: None,
-            returned: false,
-            turned_behind: self.turned_behind,
-            halted: self.halted,
-            may_be_clamped: self.may_be_clamped,
-            surface_speed: None,
-            counted_surface: self.counted_surface,
-            x_is_as_written: false,
-            in_plane_of_its_own: self.in_plane_of_its_own,
-            return_level: None,
-            ended: self.ended,
-            doubts,
-            before_skip: self.before_skip.take(),
-        };
+    /// A block that can't be read may have changed all.
+    pub fn doubt_all(&mut self, source: Source) {
+        self.groups.doubt_all(source);
+        self.doubts.add_all();
+        self.lose_axes();
     }
 
     /// S may be a surface speed still, or turns by now: nobody has read what came behind it.
     pub fn surface_speed_is_open(&self) -> bool {
-        self.surface_speed.is_none() && self.counted_surface
+        match self.groups.know(SURFACE_SPEED) {
+            Know::Either(values) => values.contains(&Some(true)),
+            _ => false,
+        }
     }
 
     /// A tool is in the spindle now.
     pub fn has_tool(&mut self, tool: Option<i64>) {
-        self.tool = tool;
-        self.tools_by_switch = None;
+        self.groups.set_if_known(TOOL, tool, Source::Author);
+    }
+
+    /// The tools with the blocks of block delete run and with them skipped, where it decides
+    /// which tool is in the spindle, or with which offset.
+    pub fn tools_by_block_delete(&self) -> Option<[Option<i64>; 2]> {
+        match self.groups.know(TOOL) {
+            Know::Either(tools) => Some(tools),
+            _ => None,
+        }
     }
 
     /// Another program or subprogram begins: it may be called from anywhere.
     pub fn program_begins(&mut self) {
-        self.ended = false;
-        self.forget();
+        self.set(PROGRAM_END, false);
+        self.doubt_all(Source::Author);
         // Its first motions are those of any program: where the tool stands is the caller's.
         AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.settle(letter));
     }
@@ -420,7 +359,7 @@ impl ControlState {
         let code = commons.read(loc::THREAD_VARYING_CODE).and_then(FunctionCode::of_setting);
         let is_sinumerik = commons.read(loc::CONTROL_FAMILY) == loc::ControlFamily::Sinumerik;
         let own = is_sinumerik.then_some(VARYING_LEADS_OF_SINUMERIK);
-        self.motion.is_some_and(|motion| {
+        self.get(MOTION).is_some_and(|motion| {
             code == Some(motion) || own.is_some_and(|codes| codes.contains(&motion))
         })
     }
@@ -434,7 +373,8 @@ impl ControlState {
     /// A line has been run in the plane: compensation that was switched on has begun.
     #[inline]
     pub fn moved_in_plane(&mut self) {
-        self.compensation_begun = true;
-        self.compensation_ends = false;
+        if !self.is(CUTTER_PATH, CutterPath::Moved) {
+            self.set(CUTTER_PATH, CutterPath::Moved);
+        }
     }
 }

@@ -4,8 +4,9 @@
 use fil_machine::modes::Unit;
 use fil_machine::{FunctionCode, Letter, letters};
 
+use super::modal::{CYCLE, DISTANCE, MOTION, TOOL, TOOL_WORD, UNITS, WORK_OFFSET, WORK_PLANE};
 use super::text::{self, TextFrame, TextWords};
-use super::{AXIS_LETTERS, Codes, ControlState, Distance, Meaning, TOOL_CHANGE};
+use super::{AXIS_LETTERS, Codes, ControlState, Distance, Meaning, Source, TOOL_CHANGE};
 
 /// What preparatory functions of others do to where the axes stand.
 #[derive(Clone, Copy, Debug, Default)]
@@ -77,12 +78,12 @@ impl ControlState {
     /// Learns from words that were written one after the other (POSTN). In a cycle they
     /// may have changed its data.
     pub fn learn_words(&mut self, words: &[(Letter, f64)], codes: &Codes) {
-        let cycle = self.in_cycle != Some(false);
-        let ways = Ways::of(words, codes, self.fixture);
+        let cycle = !self.is(CYCLE, false);
+        let ways = Ways::of(words, codes, self.get(WORK_OFFSET));
         for (letter, value) in words {
             match (*letter, FunctionCode::of_value(*value)) {
-                (letters::G, Some(code)) => self.learn_code(code, codes),
-                (letters::M, Some(code)) => self.learn_auxiliary(code, codes),
+                (letters::G, Some(code)) => self.learn_code(code, codes, Source::Author),
+                (letters::M, Some(code)) => self.learn_auxiliary(code, codes, Source::Author),
                 (letters::T, _) => self.names_tool(*value, codes),
                 (letters::H, _) => self.names_length(*value, ways.length),
                 (letter, _) if cycle => self.doubt(letter),
@@ -91,10 +92,10 @@ impl ControlState {
         }
         let has = |letters: &[u8]| words.iter().any(|(letter, _)| letters.contains(&letter.byte()));
         self.learn_ways(words, ways, codes);
-        let cycle = cycle || self.in_cycle != Some(false);
+        let cycle = cycle || !self.is(CYCLE, false);
         // In a cycle a position drills, and its level can be one too.
         let drills = cycle && has(b"XYZABCR");
-        let counts_on = self.distance != Some(Distance::Absolute);
+        let counts_on = !self.is(DISTANCE, Distance::Absolute);
         let moves = words.iter().any(|(letter, _)| is_axis(*letter)) && !ways.of_machine;
         if drills || has(b"UVW") && !ways.home || counts_on && moves {
             self.lose_axes();
@@ -111,13 +112,13 @@ impl ControlState {
         made: &[(Letter, f64)],
         codes: &Codes,
     ) {
-        let cycle = self.in_cycle != Some(false);
+        let cycle = !self.is(CYCLE, false);
         let of = |kind: Letter| {
             let words = words.iter().filter(move |(letter, _)| *letter == kind);
             words.filter_map(|(_, value)| FunctionCode::of_value(*value))
         };
-        of(letters::G).for_each(|code| self.learn_code(code, codes));
-        of(letters::M).for_each(|code| self.learn_auxiliary(code, codes));
+        of(letters::G).for_each(|code| self.learn_code(code, codes, Source::Author));
+        of(letters::M).for_each(|code| self.learn_auxiliary(code, codes, Source::Author));
         let calls = of(letters::G)
             .any(|code| matches!(codes.meaning(code), Meaning::ToolLength | Meaning::TipControl));
         for word in words.iter().filter(|(letter, _)| !matches!(*letter, letters::G | letters::M)) {
@@ -127,7 +128,7 @@ impl ControlState {
                 letter => self.trust(letter),
             }
         }
-        if self.distance != Some(Distance::Absolute) {
+        if !self.is(DISTANCE, Distance::Absolute) {
             self.doubt_axes();
         }
     }
@@ -137,7 +138,7 @@ impl ControlState {
     pub fn learn_text(&mut self, text: &str, codes: &Codes, unit: Option<Unit>) {
         match text::read(text) {
             Some(words) => self.learn_text_words(&words, codes, unit),
-            None => self.forget(),
+            None => self.doubt_all(Source::Author),
         }
     }
 
@@ -150,15 +151,15 @@ impl ControlState {
     ) {
         let before = words.skipped.then(|| self.clone());
         if words.calls_subprogram() {
-            self.forget();
+            self.doubt_all(Source::Author);
         }
-        let in_cycle = self.in_cycle;
-        let mut ways = Ways::of(&words.words, codes, self.fixture);
+        let in_cycle = self.get(CYCLE);
+        let mut ways = Ways::of(&words.words, codes, self.get(WORK_OFFSET));
         for (letter, value) in &words.words {
             match (*letter, FunctionCode::of_value(*value)) {
-                (letters::G, Some(code)) => self.learn_code(code, codes),
-                (letters::G | letters::M, None) => self.forget(),
-                (letters::M, Some(code)) => self.learn_auxiliary(code, codes),
+                (letters::G, Some(code)) => self.learn_code(code, codes, Source::Author),
+                (letters::G | letters::M, None) => self.doubt_all(Source::Author),
+                (letters::M, Some(code)) => self.learn_auxiliary(code, codes, Source::Author),
                 (letters::T, _) => self.names_tool(*value, codes),
                 (letters::H, _) => self.names_length(*value, ways.length),
                 (letter, _) if is_axis(letter) => self.doubt_axes(),
@@ -180,8 +181,8 @@ impl ControlState {
         // Behind a hole more the tool comes back to the level that it came from.
         let is_hole = in_cycle == Some(true) && !words.words.iter().any(is_level_or_code);
         if is_motion && !is_hole && words.words.iter().any(|(letter, _)| is_axis(*letter)) {
-            let drills = in_cycle != Some(false) || self.in_cycle != Some(false);
-            let is_read = !drills && self.unit.is_some() && self.unit == unit;
+            let drills = in_cycle != Some(false) || !self.is(CYCLE, false);
+            let is_read = !drills && unit.is_some() && self.get(UNITS) == unit;
             self.learn_motion(&words.words, is_read);
         }
         if let Some(before) = before {
@@ -194,17 +195,19 @@ impl ControlState {
 
     /// A word names a tool.
     fn names_tool(&mut self, value: f64, codes: &Codes) {
-        self.tool = None;
+        self.groups.doubt(TOOL);
         if codes.tool_word_has_offset {
             self.length_by_tool_word(value);
         }
-        self.tool_said |= codes.tool_word_changes;
+        if codes.tool_word_changes {
+            self.set(TOOL_WORD, true);
+        }
     }
 
     /// Learns where a text has brought the axes; positions that count otherwise than those of
     /// the post are not read.
     fn learn_motion(&mut self, words: &[(Letter, f64)], is_read: bool) {
-        let counts = self.distance == Some(Distance::Absolute) && self.motion.is_some();
+        let counts = self.is(DISTANCE, Distance::Absolute) && self.get(MOTION).is_some();
         let is_incremental = words.iter().any(|(letter, _)| b"UVW".contains(&letter.byte()));
         if !(is_read && counts) || is_incremental {
             return self.lose_axes();
@@ -225,10 +228,10 @@ impl ControlState {
             named().for_each(|letter| self.clears(codes.moved_by(letter)));
         } else if ways.astray {
             self.lose_axes();
-            self.returned = ways.returns;
+            self.doubts.returned = ways.returns;
         } else if ways.turns {
             self.turn_axes();
-            self.tilted = None;
+            self.forget(WORK_PLANE, Source::Author);
         } else if ways.shifts {
             self.shift_axes();
         } else if ways.length {

@@ -5,6 +5,7 @@ use fil_machine::{Commons, Letter};
 use super::ControlState;
 use super::doubts::Place;
 use super::levels::Levels;
+use super::modal::CYCLE;
 
 impl ControlState {
     /// The blocks from here on may be skipped.
@@ -59,7 +60,7 @@ impl ControlState {
 
     /// A canned cycle is in force where the blocks that may be skipped are left out.
     pub fn was_in_cycle(&self) -> bool {
-        self.before_skip.as_ref().is_some_and(|then| then.0.in_cycle == Some(true))
+        self.before_skip.as_ref().is_some_and(|then| then.0.is(CYCLE, true))
     }
 
     /// True while blocks may be skipped.
@@ -67,49 +68,9 @@ impl ControlState {
         self.before_skip.is_some()
     }
 
-    /// Keeps what is the same in another state; the rest is unknown.
+    /// Keeps what is the same in another state; the rest depends on block delete.
     pub(super) fn agree_with(&mut self, other: &ControlState) {
-        fn agree<T: PartialEq>(value: &mut Option<T>, other: &Option<T>) {
-            if *value != *other {
-                *value = None;
-            }
-        }
-        agree(&mut self.motion, &other.motion);
-        agree(&mut self.plane, &other.plane);
-        agree(&mut self.distance, &other.distance);
-        agree(&mut self.unit, &other.unit);
-        agree(&mut self.feed_mode, &other.feed_mode);
-        agree(&mut self.tip_control, &other.tip_control);
-        agree(&mut self.tilted, &other.tilted);
-        agree(&mut self.compensation, &other.compensation);
-        agree(&mut self.in_cycle, &other.in_cycle);
-        agree(&mut self.cycle, &other.cycle);
-        let offsets =
-            |state: &ControlState| (state.tool_offset, state.called_offset, state.lengths_said);
-        if self.tool != other.tool || offsets(self) != offsets(other) {
-            // The next motion asks for it.
-            self.x_is_as_written = false;
-            self.tools_by_switch = Some([self.tool, other.tool]);
-        }
-        self.tools_by_switch = self.tools_by_switch.or(other.tools_by_switch);
-        agree(&mut self.tool, &other.tool);
-        agree(&mut self.tool_offset, &other.tool_offset);
-        agree(&mut self.fixture, &other.fixture);
-        agree(&mut self.speed_limit, &other.speed_limit);
-        agree(&mut self.range, &other.range);
-        agree(&mut self.return_level, &other.return_level);
-        agree(&mut self.surface_speed, &other.surface_speed);
-        agree(&mut self.side_is_counted, &other.side_is_counted);
-        self.rotation = self.rotation.or(other.rotation);
-        self.halted |= other.halted;
-        self.may_be_clamped |= other.may_be_clamped;
-        self.agree_on_length(other.length);
-        agree(&mut self.called_offset, &other.called_offset);
-        self.counted_surface |= other.counted_surface;
-        self.x_is_as_written &= other.x_is_as_written;
-        self.in_plane_of_its_own |= other.in_plane_of_its_own;
-        self.compensation_begun &= other.compensation_begun;
-        self.compensation_ends |= other.compensation_ends;
+        self.groups.join(&other.groups);
         self.doubts.or(&other.doubts);
     }
 }

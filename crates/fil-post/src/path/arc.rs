@@ -13,7 +13,7 @@ use super::long_arc::{self, Parts};
 use super::{feed_rules, frame, rotary};
 use crate::control::word_address::arc::{self as words, PlaneArc};
 use crate::control::{Function, family};
-use crate::control_state::Compensation;
+use crate::control_state::{Compensation, CutterPath, modal};
 use crate::errors::PostCode;
 use crate::operation::{Arc, Target};
 use crate::post::Post;
@@ -174,9 +174,12 @@ fn check_radii(arc: &Arc, ends: [Vector3<f64>; 2]) -> Result<f64> {
 /// choose a way of its own.
 fn refuse_first_under_compensation(post: &Post) -> Result<()> {
     let state = &post.control.state;
-    let on = !matches!(state.compensation, Some(Compensation::Off));
+    let on = !matches!(state.get(modal::CUTTER_COMP), Some(Compensation::Off));
     let waits = post.control.waiting.has(Function::Compensation);
-    if !waits && state.compensation.is_none() && !state.compensation_begun {
+    if !waits
+        && state.get(modal::CUTTER_COMP).is_none()
+        && !state.is(modal::CUTTER_PATH, CutterPath::Moved)
+    {
         let message = "what stands before may have switched cutter compensation on (a program \
                        that it calls, a code of unknown meaning), and would take it up on an arc";
         return Err(Box::new(PostCode::CompensationOnArc.diag(message).hint(
@@ -184,7 +187,10 @@ fn refuse_first_under_compensation(post: &Post) -> Result<()> {
              code that switches compensation off",
         )));
     }
-    if waits || state.compensation_ends || (on && !state.compensation_begun) {
+    if waits
+        || state.may_be(modal::CUTTER_PATH, CutterPath::Leaving)
+        || (on && !state.is(modal::CUTTER_PATH, CutterPath::Moved))
+    {
         return PostCode::CompensationOnArc.err("cutter compensation would begin or end on an arc");
     }
     Ok(())
@@ -197,7 +203,7 @@ fn refuse_first_under_compensation(post: &Post) -> Result<()> {
 /// An arc that turns back in the plane of compensation: the cutter would swing round.
 fn is_across_compensation(post: &Post, arc: &PlaneArc) -> Result<bool> {
     let control = &post.control;
-    let other = control.state.plane.filter(|plane| *plane != arc.plane);
+    let other = control.state.get(modal::PLANE).filter(|plane| *plane != arc.plane);
     let Some(plane) = other.filter(|_| control.state.compensates()) else { return Ok(false) };
     let changes =
         control.commons.read(loc::CIRCLE_CUTCOM_PLANE) != CircleCutcomPlane::StraightMoves;

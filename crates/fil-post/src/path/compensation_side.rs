@@ -5,6 +5,7 @@ use fil_machine::modes::Plane;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::{Transformation, rapid_lean};
+use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::post::Post;
 
@@ -49,13 +50,13 @@ pub fn check(post: &Post, plane: Plane) -> Result<()> {
 /// Under tool-tip control, and as [`refuse_across_tool`].
 pub fn refuse_of_others(post: &Post) -> Result<()> {
     let state = &post.control.state;
-    if !(state.compensation_said && state.compensates()) {
+    if !(state.groups().changed_since_foreign(modal::CUTTER_COMP) && state.compensates()) {
         return Ok(());
     }
     if post.writes_tip() {
         return PostCode::TipControl.err("cutter compensation by a text");
     }
-    let plane = state.plane.unwrap_or(Plane::Xy);
+    let plane = state.get(modal::PLANE).unwrap_or(Plane::Xy);
     refuse_across_tool(post, plane, plane != Plane::Xy)
 }
 

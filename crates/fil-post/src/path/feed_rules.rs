@@ -11,7 +11,7 @@ use super::{Since, linearization, rotary};
 use crate::control::family;
 use crate::control::word_address::arc::PlaneArc;
 use crate::control::word_address::motion::Motion;
-use crate::control_state::{Compensation, Place};
+use crate::control_state::{Compensation, Place, modal};
 use crate::errors::PostCode;
 use crate::operation::{Feed, Target};
 use crate::post::Post;
@@ -284,7 +284,7 @@ pub fn of_arc(post: &mut Post, arc: &PlaneArc) -> Result<Option<Feed>> {
 /// The feed that an arc is cut with where the center of the cutter goes on another radius
 /// (INTCOM 1859).
 fn at_the_edge(post: &mut Post, feed: Feed, arc: &PlaneArc) -> Feed {
-    let side = match post.control.state.compensation {
+    let side = match post.control.state.get(modal::CUTTER_COMP) {
         Some(Compensation::Left) => arc.counterclockwise,
         Some(Compensation::Right) => !arc.counterclockwise,
         _ => return feed,

@@ -16,7 +16,7 @@ use nalgebra::{Point3, Rotation3, Vector3};
 use super::{height, machine_position, rotary, tip_control};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{Control, Function, family, full_turn};
-use crate::control_state::Meaning;
+use crate::control_state::{Meaning, modal};
 use crate::errors::PostCode;
 use crate::operation::{Operation, Target};
 use crate::post::Post;
@@ -94,7 +94,7 @@ fn frame_for(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<Tilte
     let Some(axis) = axis.try_normalize(1e-9) else {
         return PostCode::AxisLength.err("the tool axis has length zero");
     };
-    let tilted = post.control.state.tilted;
+    let tilted = post.control.state.get(modal::WORK_PLANE);
     let same = post.path.frame.filter(|frame| (frame.axis - axis).norm() < SAME_AXIS);
     if let Some(frame) = same.filter(|frame| {
         tilted == Some(frame.turn.is_some()) && stands_at(&post.control, frame.angles)
@@ -324,7 +324,7 @@ pub(super) fn rests(control: &Control, angles: [f64; 2]) -> bool {
 /// # Errors
 /// It does.
 pub(super) fn refuse_turned(control: &Control, stood: [Option<f64>; 2]) -> Result<()> {
-    let is_in_frame = control.tables.frame_output && control.state.tilted == Some(true);
+    let is_in_frame = control.tables.frame_output && control.state.is(modal::WORK_PLANE, true);
     let turned = |n: usize| control.stands(n + 3).is_some() && control.stands(n + 3) != stood[n];
     if is_in_frame && (0..2).any(turned) {
         return PostCode::Frame.err_with(
@@ -372,7 +372,7 @@ pub fn end(control: &mut Control) -> Result<()> {
     let known = knows_rotary(control);
     let slides = height::slides_in_frame(control);
     family::end_frame(control)?;
-    control.state.tilted = Some(false);
+    control.state.set(modal::WORK_PLANE, false);
     forget_positions(control, known);
     match slides {
         Some(slides) => height::stand(control, slides),
@@ -390,7 +390,8 @@ pub(super) fn before(control: &mut Control, operation: &Operation) -> Result<()>
             end(control)
         }
         Operation::Function(letter, code)
-            if *letter == fil_machine::letters::G && control.state.tilted != Some(false) =>
+            if *letter == fil_machine::letters::G
+                && !control.state.is(modal::WORK_PLANE, false) =>
         {
             match control.meaning(*code) {
                 Meaning::Frame | Meaning::Tilt | Meaning::TipControl | Meaning::Unit(_) => {

@@ -9,13 +9,13 @@ use super::{frame, tip_control};
 use crate::control::Control;
 use crate::control::machine_frame;
 use crate::control::skip::refuse_level;
-use crate::control_state::Place;
+use crate::control_state::{Place, modal};
 use crate::errors::PostCode;
 
 /// Where X, Y and Z of the machine stand in the tilted frame in force; `None` where that is not
 /// known.
 pub(super) fn slides_in_frame(control: &Control) -> Option<Point3<f64>> {
-    let (turn, angles) = control.tip.frame.filter(|_| control.state.tilted == Some(true))?;
+    let (turn, angles) = control.tip.frame.filter(|_| control.state.is(modal::WORK_PLANE, true))?;
     if !frame::rests(control, angles) {
         return None;
     }

@@ -19,7 +19,7 @@ use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::spindle;
 use crate::control::{Control, family};
-use crate::control_state::Place;
+use crate::control_state::{Place, modal};
 use crate::errors::PostCode;
 use crate::operation::{SpindleSpeed, Target};
 use crate::post::Post;
@@ -46,7 +46,7 @@ pub fn carry_out(post: &mut Post, target: Target) -> Result<()> {
 }
 
 fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
-    if post.control.state.in_cycle != Some(true) {
+    if !post.control.state.is(modal::CYCLE, true) {
         cycle.in_force = None;
     }
     if post.control.is_compensated() {
@@ -97,7 +97,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     } else if live_tap::taps(&post.control, cycle, &hole) {
         mill_turn::hole::tap_in_step(&mut post.control, cycle, &at, &hole)?;
     } else if let Some(code) = code {
-        if post.control.state.in_cycle != Some(true)
+        if !post.control.state.is(modal::CYCLE, true)
             && post.control.commons.read(loc::CYCLE_APPROACH_BLOCK)
         {
             let across = expand::without(hole.along);
@@ -203,7 +203,7 @@ fn warn_of_surface_speed(post: &mut Post) {
     let of_surface = spindle::is_of_surface(&post.control);
     let turns = post.control.commons.read(loc::LATHE_DIAMETER) && !post.control.tables.mills();
     if of_surface && turns && spindle::may_turn(&post.control) {
-        let limit = post.control.state.speed_limit;
+        let limit = post.control.state.get(modal::SPEED_LIMIT);
         let limit = limit.map_or("the control's".to_string(), |limit| format!("{limit}"));
         let message = format!(
             "CYCLE at surface speed: at the axis the spindle turns at the highest speed ({limit}); \
@@ -229,11 +229,11 @@ fn without_return_code(
     }
     let is_level =
         |last: Hole| last.along == hole.along && (last.clear - hole.clear).abs() <= SAME_LEVEL;
-    if control.state.in_cycle == Some(true) && !cycle.in_force.is_some_and(is_level) {
+    if control.state.is(modal::CYCLE, true) && !cycle.in_force.is_some_and(is_level) {
         family::cancel_cycle(control)?;
         cycle.in_force = None;
     }
-    if control.state.in_cycle != Some(true) {
+    if !control.state.is(modal::CYCLE, true) {
         let cause = control.block.cause;
         rapid::rapid(control, &at.of(expand::without(hole.along)), cause)?;
         let clear = Motion::along(hole.along, hole.clear);

@@ -25,7 +25,7 @@ use crate::control::sinumerik::{reader, transformation};
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::{modes, spindle};
 use crate::control::{family, full_turn};
-use crate::control_state::{CALLS, Meaning, Rotation, TOOL_CHANGE, text};
+use crate::control_state::{CALLS, Meaning, Rotation, Source, TOOL_CHANGE, modal, text};
 use crate::errors::PostCode;
 use crate::operation::{
     Arc, Feed, MotionKind, Operation, SideSpindle, Spindle, SpindleTurn, Target,
@@ -108,9 +108,9 @@ pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
     if control.tables.transforms && !mills {
         modes::plane_of_turning(control)?;
     }
-    control.state.rotation = Rotation::Standing;
+    control.state.set(modal::SPINDLE, Rotation::Standing);
     // Said again, as its feed depends on what turns now.
-    control.state.feed_mode = None;
+    control.state.forget(modal::FEED_MODE, Source::Post);
     (control.turning, control.turned) = (None, None);
     (control.speed, control.range) = (None, None);
     post.path.feed = None;

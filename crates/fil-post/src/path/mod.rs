@@ -57,6 +57,7 @@ use nalgebra::{Point3, Vector3};
 use crate::cause::Cause;
 use crate::control::word_address::motion;
 use crate::control::{family, full_turn, length_plane};
+use crate::control_state::modal;
 use crate::operation::{Arc, Feed, Lead, NextTools, Operation, Target};
 use crate::post::Post;
 
@@ -348,7 +349,7 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     }
     let by_words = matches!(operation, Operation::Words(_));
     let stood = rotary::stands(&post.control);
-    let is_clamped = post.control.state.may_be_clamped;
+    let is_clamped = post.control.state.may_be(modal::AXIS_CLAMP, true);
     write_other(post, operation)?;
     compensation_side::refuse_of_others(post)?;
     let stands = rotary::stands(&post.control);

@@ -14,7 +14,7 @@ use crate::control::place::{refuse_unknown, refuse_unknown_way};
 use crate::control::skip::refuse_level;
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::repeat;
-use crate::control_state::{Levels, Place};
+use crate::control_state::{Levels, Place, modal};
 
 /// Values of the tape nearer than this are one, mm, inch or degrees.
 const SAME: f64 = 1e-6;
@@ -29,7 +29,7 @@ pub fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()>
 
 /// The same; `warns` of a tip that comes below its line, where nothing has been said of it.
 fn in_order(control: &mut Control, motion: &Motion, cause: Cause, warns: bool) -> Result<()> {
-    if control.state.tip_control == Some(true) {
+    if control.state.is(modal::TCP, true) {
         return family::rapid(control, motion, RapidCode::Across, cause);
     }
     if control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
@@ -98,7 +98,7 @@ fn look_where_it_begins(control: &mut Control, motion: &Motion) -> Result<()> {
             continue;
         }
         match place {
-            Place::Unknown | Place::LeftToScript(_) if control.state.returned => {}
+            Place::Unknown | Place::LeftToScript(_) if control.state.axes_returned() => {}
             Place::Unknown => return refuse_unknown_way(control, number),
             Place::Shifted(_) => return control.cross_shifted(number, true),
             _ => {

@@ -15,7 +15,7 @@ use super::{carry_out as carry, rotary, scaled_lead};
 use crate::control::family;
 use crate::control::word_address::osp_thread;
 use crate::control::word_address::spindle::{self, counted};
-use crate::control_state::Place;
+use crate::control_state::{Place, modal};
 use crate::errors::PostCode;
 use crate::operation::{
     Lead, MotionKind, Operation, SpindleSpeed, Target, Thread, ThreadPasses, ThreadSide,
@@ -278,7 +278,7 @@ fn refuse_other_turns(post: &mut Post) -> Result<()> {
     };
     let now = Turns {
         speed: control.speed,
-        held: control.state.speed_limit.filter(above),
+        held: control.state.get(modal::SPEED_LIMIT).filter(above),
         clockwise: spindle::clockwise_in_motion(control),
         is_side: control.counts_side,
     };

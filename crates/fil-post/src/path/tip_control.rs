@@ -19,7 +19,7 @@ use super::{frame, frame_end, rapid, rotary, tip, turned_apart};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{Control, Function};
 use crate::control::{family, machine_frame, vectors};
-use crate::control_state::{Compensation, Meaning};
+use crate::control_state::{Compensation, Meaning, modal};
 use crate::errors::PostCode;
 use crate::operation::{Operation, Target};
 use crate::post::Post;
@@ -38,7 +38,7 @@ const WHERE_IT_STANDS: &str = "Put a GOTO behind the text or the words that move
 /// # Errors
 /// As [`begin`].
 pub(super) fn ready(post: &mut Post, target: Target) -> Result<()> {
-    if post.control.state.tip_control == Some(true) {
+    if post.control.state.is(modal::TCP, true) {
         return Ok(());
     }
     let (_, axis) = rotary::transformed(post, target);
@@ -115,7 +115,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
         return PostCode::CompensationOn.err("where tool-tip control begins");
     }
     family::cancel_cycle(control)?;
-    let in_doubt = control.state.tip_control.is_none();
+    let in_doubt = control.state.get(modal::TCP).is_none();
     let length_is_called = std::mem::take(&mut control.tip.length_is_called);
     let comes_down = length_is_called && !in_doubt;
     let is_up = comes_down && go_up_in_frame(post)?;
@@ -434,7 +434,7 @@ pub(super) fn before(post: &mut Post, operation: &Operation) -> Result<()> {
         }
         _ => return Ok(()),
     };
-    if control.state.tip_control == Some(false) {
+    if control.state.is(modal::TCP, false) {
         return Ok(());
     }
     let message = format!("{what}: controls differ in what it does under it");

@@ -15,7 +15,7 @@ use crate::control::family;
 use crate::control::machine_frame::{self, Before};
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::tool;
-use crate::control_state::Place;
+use crate::control_state::{Place, modal};
 use crate::errors::PostCode;
 use crate::operation::{NextTools, Operation, ToolChange};
 use crate::post::Post;
@@ -32,7 +32,8 @@ pub fn looks_ahead(commons: &Commons) -> bool {
 /// Refuses the change to a tool that blocks behind the skip switch may have brought already: the
 /// machine then stays where it is, and else comes from its change position.
 fn refuse_change_by_switch(control: &Control, tool: i64) -> Result<()> {
-    let may_be_in = control.state.tools_by_switch.is_some_and(|tools| tools.contains(&Some(tool)));
+    let may_be_in =
+        control.state.tools_by_block_delete().is_some_and(|tools| tools.contains(&Some(tool)));
     match may_be_in && matches!(control.place(2), Place::Between(_)) {
         true => PostCode::SkippedPart.err(format!(
             "tool {tool} is in the spindle or is not, by the skip switch, and so the tool stands where \
@@ -120,7 +121,7 @@ pub(super) fn counts_length(control: &Control) -> bool {
         // A SINUMERIK counts it square to the plane in force.
         ControlFamily::Sinumerik => {
             let along = |plane: Plane| chain.tool[plane.normal()] >= 1.0 - PARALLEL;
-            chain.has_heads() || control.state.plane.is_none_or(|plane| !along(plane))
+            chain.has_heads() || control.state.get(modal::PLANE).is_none_or(|plane| !along(plane))
         }
         ControlFamily::Klartext => true,
     }

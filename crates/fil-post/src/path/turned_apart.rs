@@ -9,6 +9,7 @@ use fil_machine::locations as loc;
 
 use super::{frame, rapid_lean, tool_change};
 use crate::control::Control;
+use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::post::Post;
 
@@ -48,7 +49,7 @@ fn look(post: &mut Post, angles: [f64; 2]) -> Result<()> {
     let by_table = turned(Carries::Table);
     if by_head
         && !control.commons.read(loc::TOOL_IGNORE_LENGTH)
-        && is_another(&mut post.path.turned_with.tool, control.state.tool)
+        && is_another(&mut post.path.turned_with.tool, control.state.get(modal::TOOL))
     {
         return PostCode::TurnedApart.err_with(
             "the head leans with a second tool, and rotary.pivot_distance is that to the tip of \
@@ -89,7 +90,7 @@ pub(super) fn refuse_level(post: &mut Post) -> Result<()> {
     if !has_pivot || !rapid_lean::turned(control).is_some_and(leans) {
         return Ok(());
     }
-    if is_another(&mut post.path.turned_with.tool_of_levels, control.state.tool) {
+    if is_another(&mut post.path.turned_with.tool_of_levels, control.state.get(modal::TOOL)) {
         return PostCode::TurnedApart.err_with(
             "a level of the machine's Z while the head leans a second tool: how far up along the \
              tool it lies is counted with rotary.pivot_distance, that to the tip of the first",
@@ -111,7 +112,7 @@ fn is_another(first: &mut Option<i64>, tool: Option<i64>) -> bool {
 fn look_across(post: &mut Post, angles: [f64; 2]) {
     let control = &mut post.control;
     let tool = control.tables.chain().tool_at(angles);
-    let has_tool = control.state.tool.is_some();
+    let has_tool = control.state.get(modal::TOOL).is_some();
     if has_tool && tool.z < rapid_lean::LEAST_RISE && tool_change::counts_length(control) {
         tool_change::say_length_lies_across(control);
         post.path.turned_with.lies_across = true;
@@ -122,5 +123,5 @@ fn look_across(post: &mut Post, angles: [f64; 2]) {
 fn zero(control: &Control) -> Option<FunctionCode> {
     let is_unsaid = !control.state.has_doubts();
     let first = || control.code_if_any(loc::FIXTURE_MIN_CODE).filter(|_| is_unsaid);
-    control.state.fixture.or_else(first)
+    control.state.get(modal::WORK_OFFSET).or_else(first)
 }

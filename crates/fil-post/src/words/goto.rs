@@ -7,7 +7,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::{csys, home};
 use crate::control::word_address::spindle;
-use crate::control_state::Rotation;
+use crate::control_state::{Rotation, modal};
 use crate::dispatch::checked_axis;
 use crate::errors::PostCode;
 use crate::items::Items;
@@ -102,9 +102,9 @@ pub fn straight(post: &mut Post, target: Target) -> Result<()> {
 /// A lathe feeds so to pull bar and to part off.
 #[inline]
 fn warn_of_standing_spindle(post: &mut Post) {
-    if post.control.state.rotation == Rotation::Standing {
+    if post.control.state.rotation() == Rotation::Standing {
         warn_where_it_mills(post);
-    } else if post.control.state.halted {
+    } else if post.control.state.may_be(modal::SPINDLE_HALTED, true) {
         warn_behind_stop(post);
     }
 }
@@ -115,7 +115,8 @@ fn warn_where_it_mills(post: &mut Post) {
     if !spindle::stands(control) || control.commons.read(loc::LATHE_DIAMETER) {
         return;
     }
-    let tool = control.state.tool.map(|tool| format!(" of tool {tool}")).unwrap_or_default();
+    let tool =
+        control.state.get(modal::TOOL).map(|tool| format!(" of tool {tool}")).unwrap_or_default();
     post.warn(PostCode::SpindleStands, format!("a motion at feed{tool}: the spindle stands"));
 }
 

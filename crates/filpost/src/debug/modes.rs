@@ -4,7 +4,7 @@ use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::setting::CodeAt;
 use fil_machine::{Commons, FunctionCode};
-use fil_post::control_state::{Compensation, ControlState, Distance, Rotation};
+use fil_post::control_state::{Compensation, ControlState, Distance, Rotation, modal};
 
 const NOT_KNOWN: &str = "not known";
 
@@ -15,21 +15,21 @@ pub(super) fn of(state: &ControlState, commons: &Commons) -> Vec<(&'static str, 
         None => NOT_KNOWN.to_string(),
     };
     let mut modes = vec![
-        ("plane", coded(state.plane.map(plane))),
-        ("coordinates", coded(state.distance.map(distance))),
-        ("unit", coded(state.unit.map(unit))),
-        ("feed", coded(state.feed_mode.map(feed))),
-        ("compensation", coded(state.compensation.map(compensation))),
-        ("tool-tip control", on_or_off(state.tip_control)),
-        ("tilted plane", on_or_off(state.tilted)),
+        ("plane", coded(state.get(modal::PLANE).map(plane))),
+        ("coordinates", coded(state.get(modal::DISTANCE).map(distance))),
+        ("unit", coded(state.get(modal::UNITS).map(unit))),
+        ("feed", coded(state.get(modal::FEED_MODE).map(feed))),
+        ("compensation", coded(state.get(modal::CUTTER_COMP).map(compensation))),
+        ("tool-tip control", on_or_off(state.get(modal::TCP))),
+        ("tilted plane", on_or_off(state.get(modal::WORK_PLANE))),
         ("canned cycle", cycle(state)),
-        ("tool", number(state.tool)),
-        ("tool offset", number(state.tool_offset)),
-        ("spindle", rotation(state.rotation).to_string()),
-        ("highest speed", speed(state.speed_limit)),
+        ("tool", number(state.get(modal::TOOL))),
+        ("tool offset", number(state.get(modal::TOOL_OFFSET))),
+        ("spindle", rotation(state.rotation()).to_string()),
+        ("highest speed", speed(state.get(modal::SPEED_LIMIT))),
     ];
     if !is_klartext(commons) {
-        modes.insert(0, ("motion", function(state.motion)));
+        modes.insert(0, ("motion", function(state.get(modal::MOTION))));
     }
     modes
 }
@@ -70,8 +70,10 @@ fn on_or_off(mode: Option<bool>) -> String {
 }
 
 fn cycle(state: &ControlState) -> String {
-    match state.in_cycle {
-        Some(true) => state.cycle.map_or_else(|| "on".to_string(), |code| function(Some(code))),
+    match state.get(modal::CYCLE) {
+        Some(true) => state
+            .get(modal::CYCLE_CODE)
+            .map_or_else(|| "on".to_string(), |code| function(Some(code))),
         other => on_or_off(other),
     }
 }

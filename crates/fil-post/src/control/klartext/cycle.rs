@@ -20,6 +20,7 @@ use crate::block::named;
 use crate::control::family::refuse;
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::{Control, tap};
+use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 
@@ -66,10 +67,10 @@ pub fn hole(
     hole: &Hole,
 ) -> Result<()> {
     let lines = definition(control, cycle, code, hole)?;
-    if control.state.cycle != Some(code) || control.klartext.defined != lines {
+    if !control.state.is(modal::CYCLE_CODE, code) || control.klartext.defined != lines {
         define(control, cycle, &lines)?;
         control.klartext.defined = lines;
-        control.state.cycle = Some(code);
+        control.state.set(modal::CYCLE_CODE, code);
     }
     let across = at.of(AxisSet::XY.or(AxisSet::ROTARY));
     if !words::axis_words(control, &across)? {

@@ -7,6 +7,7 @@ use super::line::{self, Line};
 use crate::control::Control;
 use crate::control::family::refuse;
 use crate::control::word_address::fixture;
+use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
 
 /// The last row of the table of presets that a number can name.
@@ -30,6 +31,6 @@ pub fn write(control: &mut Control, number: Option<i64>) -> Result<()> {
     line::put_more(control, &format!("  Q339=+{row} ;DATUM NUMBER"), cause)?;
     control.state.shift_axes();
     // Which hole the next M99 would drill is not counted on.
-    control.state.cycle = None;
+    control.state.forget(modal::CYCLE_CODE, Source::Post);
     Ok(())
 }

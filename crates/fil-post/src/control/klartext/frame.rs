@@ -7,6 +7,7 @@ use nalgebra::Rotation3;
 
 use super::line::{self, Line};
 use crate::control::Control;
+use crate::control_state::modal;
 use crate::path::euler::Euler;
 
 /// Begins a plane about the datum; the rotary axes stand there already (STAY). Says how
@@ -56,7 +57,7 @@ pub fn end_tip_control(control: &mut Control) -> Result<()> {
 
 fn switch(control: &mut Control, statement: &str, on: bool) -> Result<()> {
     put(control, statement)?;
-    control.state.tip_control = Some(on);
+    control.state.set(modal::TCP, on);
     XYZ.into_iter().for_each(|letter| control.state.doubt(letter));
     Ok(())
 }

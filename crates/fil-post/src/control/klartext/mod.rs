@@ -29,7 +29,7 @@ use fil_machine::{FunctionCode, Letter};
 use super::word_address::dwell::seconds_of_turns;
 use super::{Control, Function, own_offsets, word_address};
 use crate::control::family::refuse;
-use crate::control_state::Compensation;
+use crate::control_state::{Compensation, modal};
 use crate::errors::PostCode;
 use crate::operation::{CutterCompensation, Dwell, Operation};
 use line::Line;
@@ -107,7 +107,7 @@ fn compensate(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
         return refuse("CUTCOM in another plane than XY: the tool axis of TOOL CALL is Z");
     }
     if let Some((offset, _)) = wanted.offset {
-        let of_tool = control.state.tool.is_some_and(|tool| tool as f64 == offset);
+        let of_tool = control.state.get(modal::TOOL).is_some_and(|tool| tool as f64 == offset);
         if !of_tool && wanted.side != Compensation::Off {
             let message = format!(
                 "CUTCOM with offset {offset}: RL and RR take the radius of the tool that was called"
@@ -120,7 +120,7 @@ fn compensate(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
         let message = "CUTCOM: no motion came before the next CUTCOM".to_string();
         control.warnings.add(PostCode::IgnoredPart, message);
     }
-    let was = control.state.compensation;
+    let was = control.state.get(modal::CUTTER_COMP);
     if was == Some(wanted.side) {
         return Ok(());
     }

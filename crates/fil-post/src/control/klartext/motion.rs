@@ -18,7 +18,7 @@ use crate::control::word_address::modes;
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::word_address::repeat as words_of_repeat;
 use crate::control::{Control, Function};
-use crate::control_state::Compensation;
+use crate::control_state::{Compensation, modal};
 use crate::errors::PostCode;
 use crate::noted::TEXT;
 use crate::operation::Feed;
@@ -176,7 +176,7 @@ pub fn ready(control: &mut Control) -> Result<()> {
     }
     control.require_unit()?;
     let begun = !control.waiting.has(Function::Compensation);
-    let lost = control.state.compensation.is_none() && begun;
+    let lost = control.state.get(modal::CUTTER_COMP).is_none() && begun;
     if lost && control.compensation_asked() != Compensation::Off {
         return PostCode::CompensationLost
             .err("a text that can't be read stands within cutter compensation");
@@ -212,9 +212,9 @@ pub(super) fn a_minute(control: &Control, feed: f64) -> Result<f64> {
 
 /// Says whether F is a feed a minute or a turn, where the control may take it otherwise.
 pub(super) fn say_mode(control: &mut Control, mode: FeedMode) {
-    if control.state.feed_mode != Some(mode) {
+    if !control.state.is(modal::FEED_MODE, mode) {
         control.m(if mode == FeedMode::PerRevolution { PER_REVOLUTION } else { PER_MINUTE });
-        control.state.feed_mode = Some(mode);
+        control.state.set(modal::FEED_MODE, mode);
         control.state.doubt(F);
     }
 }
@@ -235,7 +235,7 @@ pub(super) fn write(control: &mut Control, turning: AxisSet) -> Result<()> {
         if (off || in_plane) && control.take_function(Function::Compensation) {
             control.klartext.phrase.side = Some(control.compensation_asked());
         }
-    } else if control.state.compensation.is_none() {
+    } else if control.state.get(modal::CUTTER_COMP).is_none() {
         control.klartext.phrase.side = Some(Compensation::Off);
     }
     if !control.waiting.is_empty() {

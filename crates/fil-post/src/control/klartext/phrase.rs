@@ -8,7 +8,7 @@ use super::reader;
 use crate::block::Block;
 use crate::control::family::refuse;
 use crate::control::{Control, vectors};
-use crate::control_state::Compensation;
+use crate::control_state::{Compensation, CutterPath, modal};
 use crate::noted::TEXT;
 
 /// How a line begins.
@@ -134,8 +134,8 @@ pub fn write(control: &mut Control) -> Result<()> {
         reader::learn_turning(control, code.value());
     }
     if let Some(side) = phrase.side {
-        control.state.compensation = Some(side);
-        control.state.compensation_begun = false;
+        control.state.set(modal::CUTTER_COMP, side);
+        control.state.set(modal::CUTTER_PATH, CutterPath::Unmoved);
     }
     Ok(())
 }

@@ -8,6 +8,7 @@ use super::line::{self, Line};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family::refuse;
+use crate::control_state::{Source, modal};
 
 /// Longest name of a program.
 const NAME: usize = 32;
@@ -22,9 +23,9 @@ pub fn start(control: &mut Control, blocks: &[String]) -> Result<()> {
         return refuse("_OUTPTP and _MCDWT: lines of Klartext are not edited");
     }
     let unit = control.require_unit()?;
-    control.state.unit = Some(unit);
-    control.state.plane = Some(Plane::Xy);
-    control.state.compensation = None;
+    control.state.set(modal::UNITS, unit);
+    control.state.set(modal::PLANE, Plane::Xy);
+    control.state.forget(modal::CUTTER_COMP, Source::Post);
     control.klartext.name = name(control);
     let cause = control.head.cause;
     let text = format!("BEGIN PGM {} {}", control.klartext.name, unit_text(unit));

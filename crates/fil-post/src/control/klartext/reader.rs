@@ -4,7 +4,7 @@
 use fil_machine::{FunctionCode, Letter, letters};
 
 use crate::control::Control;
-use crate::control_state::{Compensation, Rotation, TOOL_CHANGE};
+use crate::control_state::{Compensation, CutterPath, Rotation, Source, TOOL_CHANGE, modal};
 
 /// What an M function does to what the post counts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,27 +46,29 @@ pub fn learn(control: &mut Control, text: &str) {
     match items[..] {
         ["BLK", "FORM", ..] | ["TOOL", "DEF", ..] => {}
         ["STOP", ref rest @ ..] => {
-            control.state.halted = true;
+            control.state.set(modal::SPINDLE_HALTED, true);
             motion(control, rest);
         }
         ["END", "PGM", ..] => {
             control.klartext.ended = true;
-            control.state.ended = true;
+            control.state.set(modal::PROGRAM_END, true);
         }
         ["TOOL", "CALL", ref rest @ ..] if !rest.is_empty() && rest.iter().all(says_speed) => {
             control.state.doubt(letters::S);
         }
         ["TOOL", "CALL", ..] => {
-            control.state.tool = None;
-            control.state.tool_changes += 1;
+            control.state.forget(modal::TOOL, Source::Author);
+            control.state.set(modal::TOOL_CHANGED, true);
             // The control changes the tool with the spindle standing.
-            control.state.rotation = Rotation::Standing;
+            control.state.set(modal::SPINDLE, Rotation::Standing);
             tool_change_moves(control);
             control.state.doubt(letters::S);
         }
-        ["CYCL", "DEF", number, ..] if !frames(number) => control.state.cycle = None,
+        ["CYCL", "DEF", number, ..] if !frames(number) => {
+            control.state.forget(modal::CYCLE_CODE, Source::Author)
+        }
         ["CYCL", "DEF", number, ..] => {
-            control.state.cycle = None;
+            control.state.forget(modal::CYCLE_CODE, Source::Author);
             match shifts(number) {
                 true => control.state.shift_axes(),
                 false => control.state.lose_axes(),
@@ -147,9 +149,12 @@ fn motion(control: &mut Control, items: &[&str]) {
 }
 
 fn side(control: &mut Control, side: Compensation) {
-    control.state.compensation = Some(side);
-    control.state.compensation_said = true;
-    control.state.compensation_begun = side != Compensation::Off;
+    control.state.set(modal::CUTTER_COMP, side);
+    let path = match side {
+        Compensation::Off => CutterPath::Unmoved,
+        _ => CutterPath::Moved,
+    };
+    control.state.set(modal::CUTTER_PATH, path);
 }
 
 fn word(control: &mut Control, item: &str, of_machine: bool) {
@@ -159,12 +164,12 @@ fn word(control: &mut Control, item: &str, of_machine: bool) {
     match (first, number) {
         (Some('M'), Ok(number)) => match meaning(number) {
             Auxiliary::Harmless => learn_function(control, number),
-            Auxiliary::End => control.state.ended = true,
+            Auxiliary::End => control.state.set(modal::PROGRAM_END, true),
             Auxiliary::PerMinute => {
-                control.state.feed_mode = Some(fil_machine::modes::FeedMode::PerMinute);
+                control.state.set(modal::FEED_MODE, fil_machine::modes::FeedMode::PerMinute);
             }
             Auxiliary::PerTurn => {
-                control.state.feed_mode = Some(fil_machine::modes::FeedMode::PerRevolution);
+                control.state.set(modal::FEED_MODE, fil_machine::modes::FeedMode::PerRevolution);
                 control.state.doubt(letters::F);
             }
             // In the frame of the machine for this line only, and a call of the cycle.
@@ -199,7 +204,7 @@ pub fn learn_turning(control: &mut Control, number: f64) {
 fn learn_function(control: &mut Control, number: f64) {
     let Some(code) = FunctionCode::of_value(number) else { return };
     learn_turning(control, number);
-    control.state.learn_auxiliary(code, &control.codes);
+    control.state.learn_auxiliary(code, &control.codes, Source::Author);
     if code == TOOL_CHANGE {
         tool_change_moves(control);
     }
@@ -221,11 +226,11 @@ fn tool_change_moves(control: &mut Control) {
 
 /// Nothing is known any more but what no line can change.
 fn forget(control: &mut Control) {
-    let (unit, plane) = (control.state.unit, control.state.plane);
-    control.state.forget();
+    let (unit, plane) = (control.state.get(modal::UNITS), control.state.get(modal::PLANE));
+    control.state.doubt_all(Source::Author);
     control.klartext.clockwise = None;
-    control.state.unit = unit;
-    control.state.plane = plane;
-    control.state.distance = Some(crate::control_state::Distance::Absolute);
-    control.state.in_cycle = Some(false);
+    control.state.set_if_known(modal::UNITS, unit, Source::Author);
+    control.state.set_if_known(modal::PLANE, plane, Source::Author);
+    control.state.set(modal::DISTANCE, crate::control_state::Distance::Absolute);
+    control.state.set(modal::CYCLE, false);
 }

@@ -4,6 +4,7 @@ use fil_diag::Result;
 
 use crate::control::Control;
 use crate::control::family::refuse;
+use crate::control_state::{Source, modal};
 
 /// The one mark that the control reads.
 const MARK: char = '/';
@@ -17,7 +18,7 @@ pub fn change(control: &mut Control, on: bool) -> Result<()> {
         return refuse("OPSKIP by another mark than /: a TNC reads no other (tape.opskip_char)");
     }
     // A cycle that is defined on one side of the mark would be called on the other.
-    control.state.cycle = None;
+    control.state.forget(modal::CYCLE_CODE, Source::Post);
     control.klartext.defined.clear();
     let klartext = &mut control.klartext;
     if on {

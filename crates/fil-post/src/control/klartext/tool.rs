@@ -8,7 +8,7 @@ use fil_machine::rounding::Rounding;
 use super::line::{self, Line};
 use crate::block::named;
 use crate::control::{Control, own_offsets};
-use crate::control_state::Rotation;
+use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
 use crate::noted::TEXT;
 use crate::operation::ToolChange;
@@ -42,11 +42,11 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     for number in control.tables.present().numbers() {
         control.state.tool_change_moves(control.tables.axis(number).letter);
     }
-    control.state.tool_changes += 1;
+    control.state.set(modal::TOOL_CHANGED, true);
     // The control changes the tool with the spindle standing.
-    control.state.rotation = Rotation::Standing;
+    control.state.set(modal::SPINDLE, Rotation::Standing);
     control.state.has_tool(Some(wanted.tool));
-    control.state.tool_offset = Some(wanted.tool);
+    control.state.set(modal::TOOL_OFFSET, wanted.tool);
     Ok(())
 }
 
@@ -95,7 +95,7 @@ pub fn speed(control: &mut Control, value: f64) -> Result<()> {
     let cause = control.block.cause;
     let mut line = Line::default();
     line.item(TEXT, "TOOL CALL", cause.whole());
-    if let Some(tool) = control.state.tool {
+    if let Some(tool) = control.state.get(modal::TOOL) {
         line.item(T.byte(), &number(control, tool)?, cause.whole());
     }
     line.item(TEXT, "Z", cause.whole());

@@ -17,6 +17,7 @@ use crate::control::family::refuse;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::{modes, motion, spindle};
 use crate::control::{Control, length_plane, line, tap};
+use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
 use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
@@ -80,16 +81,16 @@ pub fn hole(
         return Ok(());
     }
     let feed = control.commons.last_output(F);
-    let called = format!("{call} F{feed} {:?}", control.state.feed_mode);
-    let in_force = control.state.in_cycle == Some(true)
-        && control.state.cycle == Some(code)
+    let called = format!("{call} F{feed} {:?}", control.state.get(modal::FEED_MODE));
+    let in_force = control.state.is(modal::CYCLE, true)
+        && control.state.is(modal::CYCLE_CODE, code)
         && control.sinumerik.called == called;
     if !in_force {
         cancel(control)?;
         control
             .because(cycle.cause, |control| super::put_text(control, &format!("MCALL {call}")))?;
-        control.state.in_cycle = Some(true);
-        control.state.cycle = Some(code);
+        control.state.set(modal::CYCLE, true);
+        control.state.set(modal::CYCLE_CODE, code);
         control.sinumerik.called = called;
     }
     position(control, moves)?;
@@ -102,7 +103,7 @@ pub fn hole(
 fn plane(control: &mut Control, hole: &Hole) -> Result<()> {
     let drilled = Plane::across(hole.along);
     modes::plane_of_its_own(control, drilled)?;
-    control.state.in_plane_of_its_own = length_plane::is_of_one_motion(control, drilled);
+    control.state.set(modal::PLANE_IS_TEMPORARY, length_plane::is_of_one_motion(control, drilled));
     Ok(())
 }
 
@@ -111,14 +112,14 @@ fn plane(control: &mut Control, hole: &Hole) -> Result<()> {
 /// # Errors
 /// As a text on the tape.
 pub fn cancel(control: &mut Control) -> Result<()> {
-    if control.state.in_cycle == Some(false) {
+    if control.state.is(modal::CYCLE, false) {
         return Ok(());
     }
     let waiting = control.block.take();
     control.block.cause = control.block.cause.whole();
     super::put_text(control, "MCALL")?;
     control.block = waiting;
-    control.state.in_cycle = Some(false);
+    control.state.set(modal::CYCLE, false);
     Ok(())
 }
 

@@ -13,6 +13,7 @@ use fil_machine::modes::FeedMode;
 use super::{program, transformation};
 use crate::control::word_address::{motion, spindle};
 use crate::control::{Control, line, tap};
+use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
 use crate::path::cycle::{Cycle, CycleKind, Hole};
@@ -66,7 +67,7 @@ pub fn tap(control: &mut Control, cycle: &Cycle, hole: &Hole) -> Result<()> {
     if by_diameter {
         program::say_diameters(control)?;
     }
-    control.state.motion = None;
+    control.state.forget(modal::MOTION, Source::Post);
     control.state.doubt(F);
     spindle::turn_on(control, clockwise)
 }

@@ -7,7 +7,7 @@ use fil_machine::{Letter, letters, locations as loc};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family::refuse;
-use crate::control_state::{Rotation, TextFrame, TextWords};
+use crate::control_state::{Rotation, Source, TextFrame, TextWords, modal};
 
 /// Statements that change nothing the post counts on: how the path is smoothed and
 /// driven, what stands beside the motions.
@@ -97,23 +97,23 @@ pub fn learn(control: &mut Control, text: &str) {
     }
     if words.skipped {
         // What a block does that may be skipped is known in no case that matters.
-        control.state.forget();
+        control.state.doubt_all(Source::Author);
         return;
     }
     let items = items(text);
     let calls = items.first().is_some_and(|item| item == "MCALL");
     if calls {
-        control.state.cycle = None;
+        control.state.forget(modal::CYCLE_CODE, Source::Author);
         control.sinumerik.called.clear();
-        control.state.in_cycle = Some(items.len() > 1);
+        control.state.set(modal::CYCLE, items.len() > 1);
         return;
     }
     for (number, item) in items.iter().enumerate() {
         let is_number = number == 0 && item.starts_with('N') && is_digits(&item[1..]);
         if !is_number && !take(control, item, &mut words) {
-            control.state.forget();
+            control.state.doubt_all(Source::Author);
             control.sinumerik.edge = None;
-            control.state.tool_offset = None;
+            control.state.forget(modal::TOOL_OFFSET, Source::Author);
             control.sinumerik.clockwise = None;
             return;
         }
@@ -177,7 +177,7 @@ fn take(control: &mut Control, item: &str, words: &mut TextWords) -> bool {
         b'D' => edge(control, value),
         // A call of a subprogram, or a parameter without its value.
         b'L' | b'P' | b'R' => return false,
-        b'M' if value == 17.0 => control.state.ended = true,
+        b'M' if value == 17.0 => control.state.set(modal::PROGRAM_END, true),
         _ => words.words.push((letter, value)),
     }
     true
@@ -194,7 +194,7 @@ fn called(control: &mut Control, name: &str, words: &mut TextWords) -> bool {
         control.state.doubt_axes();
         control.state.doubt(letters::F);
         control.state.doubt(letters::S);
-        control.state.motion = None;
+        control.state.forget(modal::MOTION, Source::Author);
         return true;
     }
     false
@@ -217,12 +217,12 @@ fn assigned(control: &mut Control, name: &str, value: &str, words: &mut TextWord
         ("SPOS" | "SPOSA", Some(_)) => {
             let own = control.commons.int_opt(loc::CONTROL_SPINDLE_INDEX).unwrap_or(1);
             if index.is_empty() || index == format!("[{own}]") {
-                control.state.rotation = Rotation::Standing;
+                control.state.set(modal::SPINDLE, Rotation::Standing);
             }
             true
         }
         ("LIMS", Some(limit)) => {
-            control.state.speed_limit = Some(limit);
+            control.state.set(modal::SPEED_LIMIT, limit);
             true
         }
         ("CTOL" | "ADIS" | "ADISPOS" | "OVR", Some(_)) => true,
@@ -266,10 +266,10 @@ fn edge(control: &mut Control, value: f64) {
     control.state.doubt_axes();
     if edge.is_none() || edge != control.sinumerik.edge {
         control.state.tool_length_changes();
-        control.state.lengths_said += 1;
+        control.state.set(modal::LENGTH_WORD, true);
     }
     control.sinumerik.edge = edge;
-    control.state.tool_offset = edge;
+    control.state.set_if_known(modal::TOOL_OFFSET, edge, Source::Author);
     control.state.calls_length(edge != Some(0));
 }
 

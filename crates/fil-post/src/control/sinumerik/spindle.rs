@@ -9,7 +9,7 @@ use fil_machine::modes::FeedMode;
 use crate::control::Control;
 use crate::control::family::refuse;
 use crate::control::word_address::spindle as words;
-use crate::control_state::Rotation;
+use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
 use crate::operation::{Feed, Spindle, SpindleSpeed};
 
@@ -35,7 +35,7 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
                 None => "SPOS".to_string(),
             };
             super::put_text(control, &format!("{name}={}", plain(angle, DIGITS)))?;
-            control.state.rotation = Rotation::Standing;
+            control.state.set(modal::SPINDLE, Rotation::Standing);
             control.turning = None;
             Ok(())
         }
@@ -85,7 +85,7 @@ fn takes_feed_a_turn(control: &mut Control, speed: Option<SpindleSpeed>) {
         _ => loc::SPINDLE_CSS_CODE,
     };
     if control.code_if_any(at).is_some() {
-        control.state.feed_mode = Some(FeedMode::PerRevolution);
+        control.state.set(modal::FEED_MODE, FeedMode::PerRevolution);
         control.tables.format_feed(FeedMode::PerRevolution);
         control.state.doubt(F);
     }

@@ -7,6 +7,7 @@ use nalgebra::Rotation3;
 
 use super::put_text;
 use crate::control::Control;
+use crate::control_state::modal;
 use crate::path::euler::Euler;
 
 /// Turns about X, the new Y and the new Z, axis by axis.
@@ -63,7 +64,7 @@ fn switch(control: &mut Control, statement: &str, on: bool) -> Result<()> {
     let waiting = control.block.take();
     put_text(control, statement)?;
     control.block = waiting;
-    control.state.tip_control = Some(on);
+    control.state.set(modal::TCP, on);
     XYZ.into_iter().for_each(|letter| control.state.doubt(letter));
     Ok(())
 }

@@ -7,7 +7,7 @@ use fil_machine::locations::{self as loc, ThreadCycle};
 use crate::control::family::refuse;
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::{Control, line, tap};
-use crate::control_state::VARYING_LEADS_OF_SINUMERIK;
+use crate::control_state::{Source, VARYING_LEADS_OF_SINUMERIK, modal};
 use crate::operation::{Lead, Thread, ThreadSide};
 use crate::path::thread::{Shape, cycle_of, on_machine};
 use crate::post::Post;
@@ -79,6 +79,6 @@ pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Res
     control.because(thread.lead.cause, |control| super::put_text(control, &call))?;
     control.state.doubt_axes();
     control.state.doubt(F);
-    control.state.motion = None;
+    control.state.forget(modal::MOTION, Source::Post);
     Ok(true)
 }

@@ -7,6 +7,7 @@ use fil_machine::locations as loc;
 use crate::control::family::refuse;
 use crate::control::word_address::tool as words;
 use crate::control::{Control, own_offsets};
+use crate::control_state::modal;
 use crate::operation::ToolChange;
 
 /// The highest number of a cutting edge.
@@ -35,7 +36,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     })?;
     control.state.doubt_axes();
     control.state.has_tool(Some(wanted.tool));
-    control.state.tool_offset = Some(edge);
+    control.state.set(modal::TOOL_OFFSET, edge);
     control.sinumerik.edge = Some(edge);
     control.state.calls_length(true);
     Ok(())

@@ -9,7 +9,7 @@ use fil_machine::modes::Plane;
 use super::modes;
 use super::tool::OFFSETS;
 use crate::control::{Control, Function, length_plane};
-use crate::control_state::Compensation;
+use crate::control_state::{Compensation, modal};
 use crate::errors::PostCode;
 use crate::operation::CutterCompensation;
 
@@ -57,7 +57,8 @@ pub fn write(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
 
 /// The axes of the plane in force, in polar interpolation those of the face.
 fn axes_of_plane(control: &Control) -> AxisSet {
-    let said = if control.tables.is_polar() { Some(Plane::Xy) } else { control.state.plane };
+    let said =
+        if control.tables.is_polar() { Some(Plane::Xy) } else { control.state.get(modal::PLANE) };
     let [first, second] = said.unwrap_or_else(|| usual_plane(control)).axes();
     AxisSet::of(first).or(AxisSet::of(second))
 }
@@ -107,7 +108,7 @@ pub fn usual_plane(control: &Control) -> Plane {
         return Plane::Zx;
     }
     let start = crate::control::program::state_at_start(&control.commons, None);
-    start.plane.unwrap_or(Plane::Xy)
+    start.get(modal::PLANE).unwrap_or(Plane::Xy)
 }
 
 /// The nose of a turning tool is in the offset that its T word has called: a number in
@@ -132,9 +133,9 @@ fn nose(control: &Control, given: Option<(f64, u16)>) -> Result<()> {
 /// in the spindle, and on a lathe the nose belongs to the offset that LOADTL has called.
 fn unlike_tool(control: &Control, given: Option<(f64, u16)>) -> Option<(f64, u16)> {
     let is_lathe = control.commons.read(loc::LATHE_DIAMETER);
-    let called = control.state.tool_offset.filter(|_| is_lathe);
+    let called = control.state.get(modal::TOOL_OFFSET).filter(|_| is_lathe);
     let wanted = given.or_else(|| called.map(|offset| (offset as f64, 0)))?;
-    let of_tool = control.state.tool.is_some_and(|tool| tool as f64 == wanted.0);
+    let of_tool = control.state.get(modal::TOOL).is_some_and(|tool| tool as f64 == wanted.0);
     Some(wanted).filter(|_| !(is_lathe && of_tool))
 }
 
@@ -145,7 +146,7 @@ fn offset_word(control: &mut Control, given: Option<(f64, u16)>) -> Result<()> {
     }
     let from_tool = control.commons.read(loc::TOOL_DIAMETER_FROM_TOOL);
     let given = if from_tool { given } else { unlike_tool(control, given) };
-    let of_tool = control.state.tool.filter(|_| from_tool).map(|tool| (tool as f64, 0));
+    let of_tool = control.state.get(modal::TOOL).filter(|_| from_tool).map(|tool| (tool as f64, 0));
     let Some((offset, word)) = given.or(of_tool) else {
         if from_tool {
             return PostCode::WordForm

@@ -14,7 +14,7 @@ use fil_machine::rounding::Rounding;
 use super::motion::{self, Motion};
 use super::{dwell, modes, spindle};
 use crate::control::{Control, length_plane, sinumerik};
-use crate::control_state::Rotation;
+use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
 use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
@@ -42,7 +42,7 @@ pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
 
 /// The code of a tap for the way the spindle turns, which the tape has said.
 fn tap_code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
-    let (code, rigid) = match control.state.rotation {
+    let (code, rigid) = match control.state.rotation() {
         Rotation::Unsaid | Rotation::Clockwise => (loc::CYCLE_TAP_CODE, loc::CYCLE_RIGID_TAP_CODE),
         Rotation::Counterclockwise => (loc::CYCLE_TAP_LEFT_CODE, loc::CYCLE_RIGID_TAP_LEFT_CODE),
         // A rigid tap turns the spindle by itself.
@@ -69,7 +69,7 @@ fn turns_by_g74(control: &Control) -> bool {
 
 /// Why the machine has no code for a tap that turns as the spindle does.
 pub fn no_tap(control: &Control) -> &'static str {
-    match control.state.rotation {
+    match control.state.rotation() {
         Rotation::Counterclockwise
             if turns_by_g74(control)
                 && control.code_if_any(loc::CYCLE_TAP_LEFT_CODE) == Some(G74) =>
@@ -267,7 +267,7 @@ fn rigid_mode(control: &mut Control, cycle: &Cycle) -> Result<()> {
              cycle.rigid_tap_mode)",
         );
     };
-    if control.state.in_cycle == Some(true) {
+    if control.state.is(modal::CYCLE, true) {
         return Ok(());
     }
     let Some(asked @ SpindleSpeed::Revolutions(_)) = control.speed else {
@@ -290,9 +290,9 @@ fn control_has_data(control: &Control, cycle: &Cycle, code: FunctionCode, hole: 
     let dwell = control.commons.read(loc::CYCLE_DWELL_ADDRESS).filter(|_| cycle.dwell > 0.0);
     let bottom = control.tables.axis(hole.along).letter;
     let letters = [Some(F), Some(R), Some(bottom), step, dwell];
-    control.state.cycle == Some(code)
+    control.state.is(modal::CYCLE_CODE, code)
         && letters.into_iter().flatten().all(|letter| control.state.has_last(letter))
-        && control.state.plane.is_none_or(|plane| plane == Plane::across(hole.along))
+        && control.state.get(modal::PLANE).is_none_or(|plane| plane == Plane::across(hole.along))
 }
 
 /// Writes the code that ends the control's cycle, if it may be in one.
@@ -300,7 +300,7 @@ fn control_has_data(control: &Control, cycle: &Cycle, code: FunctionCode, hole: 
 /// # Errors
 /// The machine has no such code.
 pub fn cancel(control: &mut Control) -> Result<()> {
-    if control.state.in_cycle != Some(true) {
+    if !control.state.is(modal::CYCLE, true) {
         return Ok(());
     }
     leave(control)
@@ -354,7 +354,7 @@ fn codes(control: &mut Control, cycle: FunctionCode, hole: &Hole) -> Result<()> 
         };
         let code = control.code(at, "the return level")?;
         let modal = control.commons.read(loc::CYCLE_RETURN_MODAL);
-        if !modal || control.state.return_level != Some(code) {
+        if !modal || !control.state.is(modal::RETURN_LEVEL, code) {
             control.g(code);
         }
     }

@@ -11,6 +11,7 @@ use fil_machine::rounding::Rounding;
 
 use super::spindle::{counted, speed_in_range, surface_in_unit};
 use crate::control::{Control, Function};
+use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::{Dwell, SpindleSpeed};
 
@@ -112,7 +113,7 @@ fn dwells_in_turns(control: &Control) -> bool {
 
 /// True while the control takes a dwell as turns of the spindle.
 fn waits_turns(control: &Control) -> bool {
-    dwells_in_turns(control) && control.state.feed_mode == Some(FeedMode::PerRevolution)
+    dwells_in_turns(control) && control.state.is(modal::FEED_MODE, FeedMode::PerRevolution)
 }
 
 /// Seconds in the control's unit (DBLCOM 980: 1000 for milliseconds, 0 as they
@@ -137,7 +138,7 @@ fn in_revolutions(control: &mut Control, turns: f64) -> Result<f64> {
         return Ok(in_seconds(control, seconds));
     };
     // Code and letter are those of a dwell in seconds: the feed mode tells them apart.
-    if control.state.feed_mode != Some(FeedMode::PerRevolution) {
+    if !control.state.is(modal::FEED_MODE, FeedMode::PerRevolution) {
         return PostCode::NoCode
             .err("a dwell in revolutions where the feed is not one a revolution would be seconds");
     }
@@ -157,7 +158,7 @@ pub(crate) fn known_speed(control: &Control) -> Option<f64> {
 /// the diameter at which the tool stands, no more than the highest speed in force. `None` where
 /// X, that speed or its top are not known.
 fn lowest_of_surface(control: &Control) -> Option<f64> {
-    let is_said = control.state.surface_speed == Some(true) && !control.tables.mills();
+    let is_said = control.state.is(modal::SURFACE_SPEED, true) && !control.tables.mills();
     if !is_said || counted::is_unknown(control) {
         return None;
     }
@@ -170,7 +171,10 @@ fn lowest_of_surface(control: &Control) -> Option<f64> {
     let diameter = 2.0 * control.stands(0)?.abs() * mm;
     // No speed is above all ranges but one that nothing holds.
     let of_ranges = Some(speed_in_range(control, f64::MAX)).filter(|top| *top < f64::MAX);
-    let top = [control.state.speed_limit, of_ranges].into_iter().flatten().reduce(f64::min)?;
+    let top = [control.state.get(modal::SPEED_LIMIT), of_ranges]
+        .into_iter()
+        .flatten()
+        .reduce(f64::min)?;
     let turns = (way / (std::f64::consts::PI * diameter)).min(top);
     Some(turns).filter(|turns| *turns > 0.0)
 }

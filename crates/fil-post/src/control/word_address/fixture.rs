@@ -9,6 +9,7 @@ use fil_machine::setting::CodeAt;
 
 use super::cycle;
 use crate::control::{Control, Function};
+use crate::control_state::modal;
 use crate::errors::PostCode;
 
 /// Writes a work offset, in a block of its own or with the next motion. Where the axes
@@ -67,7 +68,7 @@ pub(in crate::control) fn prepare(control: &mut Control) -> Result<()> {
 
 /// Writes the offset in the block under construction, or keeps it for a motion.
 fn place(control: &mut Control) -> Result<()> {
-    let in_force = control.state.fixture;
+    let in_force = control.state.get(modal::WORK_OFFSET);
     let stays = control.block.g_codes().iter().any(|(code, _)| Some(*code) == in_force);
     counts_anew(control, stays);
     match control.commons.read(loc::FIXTURE_PLACEMENT) {

@@ -9,7 +9,7 @@ use fil_machine::modes::{Plane, Unit};
 use super::compensation;
 use crate::control::program::{plane_code, unit_code};
 use crate::control::{Control, Function, length_plane, sinumerik};
-use crate::control_state::{Compensation, Distance};
+use crate::control_state::{Compensation, Distance, modal};
 use crate::errors::PostCode;
 
 /// Brings the control into the modes every motion of the post counts on: unit,
@@ -21,13 +21,13 @@ use crate::errors::PostCode;
 #[inline]
 pub fn require(control: &mut Control, unit: Unit) -> Result<()> {
     let state = &control.state;
-    let stands = state.unit == Some(unit)
-        && state.distance == Some(Distance::Absolute)
-        && state.x_is_as_written
-        && !state.in_plane_of_its_own
+    let stands = state.is(modal::UNITS, unit)
+        && state.is(modal::DISTANCE, Distance::Absolute)
+        && state.is(modal::DIAMETER_MODE, true)
+        && !state.may_be(modal::PLANE_IS_TEMPORARY, true)
         && !length_plane::is_left(control)
-        && state.in_cycle == Some(false)
-        && state.compensation.is_some();
+        && state.is(modal::CYCLE, false)
+        && state.get(modal::CUTTER_COMP).is_some();
     if stands { Ok(()) } else { say_again(control, unit) }
 }
 
@@ -36,7 +36,7 @@ pub fn require(control: &mut Control, unit: Unit) -> Result<()> {
 /// # Errors
 /// It does.
 pub fn refuse_tool_by_switch(control: &Control) -> Result<()> {
-    match control.state.tools_by_switch {
+    match control.state.tools_by_block_delete() {
         Some(_) => PostCode::SkippedPart.err(
             "the tool or its offset was changed in blocks that may be skipped, and with them skipped \
              this motion would be made with the one before it",
@@ -51,38 +51,38 @@ fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
     let waiting = control.block.take();
     let mut missing = Vec::new();
     let sinumerik = control.tables.family == ControlFamily::Sinumerik;
-    if control.state.in_cycle != Some(false) && sinumerik {
+    if !control.state.is(modal::CYCLE, false) && sinumerik {
         sinumerik::cycle::cancel(control)?;
-    } else if control.state.in_cycle != Some(false)
+    } else if !control.state.is(modal::CYCLE, false)
         && !say(control, control.code_if_any(loc::CYCLE_OFF_CODE))
     {
-        control.state.in_cycle = Some(false);
+        control.state.set(modal::CYCLE, false);
     }
-    if !control.state.x_is_as_written {
+    if !control.state.is(modal::DIAMETER_MODE, true) {
         say_what_x_is(control, sinumerik)?;
     }
-    if control.state.unit != Some(unit) {
-        let wrong = control.state.unit.is_some();
+    if !control.state.is(modal::UNITS, unit) {
+        let wrong = control.state.get(modal::UNITS).is_some();
         if !say(control, control.code_if_any(unit_code(unit))) && wrong {
             missing.push("the unit");
         }
-        control.state.unit = Some(unit);
+        control.state.set(modal::UNITS, unit);
     }
-    if control.state.distance != Some(Distance::Absolute) {
-        let wrong = control.state.distance.is_some();
+    if !control.state.is(modal::DISTANCE, Distance::Absolute) {
+        let wrong = control.state.get(modal::DISTANCE).is_some();
         if !say(control, absolute_code(control)) && wrong {
             missing.push("absolute coordinates");
         }
-        control.state.distance = Some(Distance::Absolute);
+        control.state.set(modal::DISTANCE, Distance::Absolute);
     }
-    if control.state.compensation.is_none() {
+    if control.state.get(modal::CUTTER_COMP).is_none() {
         let begun = !control.waiting.has(Function::Compensation);
         if begun && control.compensation_asked() != Compensation::Off {
             return PostCode::CompensationLost
                 .err("a text that can't be read stands within cutter compensation");
         }
         say(control, control.code_if_any(loc::CUTCOM_OFF_CODE));
-        control.state.compensation = Some(Compensation::Off);
+        control.state.set(modal::CUTTER_COMP, Compensation::Off);
     }
     if let Some(what) = missing.first() {
         return PostCode::NoCode.err(format!("the machine has no code that brings {what} back"));
@@ -100,7 +100,9 @@ fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
 /// # Errors
 /// As [`plane_of_its_own`].
 pub fn leave_plane_of_its_own(control: &mut Control) -> Result<()> {
-    if !control.state.in_plane_of_its_own || control.state.in_cycle != Some(false) {
+    if !control.state.may_be(modal::PLANE_IS_TEMPORARY, true)
+        || !control.state.is(modal::CYCLE, false)
+    {
         return Ok(());
     }
     plane_of_turning(control)
@@ -119,7 +121,7 @@ pub fn plane_of_turning(control: &mut Control) -> Result<()> {
 /// Says again that X is a diameter, on a control that counts radii too, and on a SINUMERIK the
 /// plane in which a lathe turns.
 fn say_what_x_is(control: &mut Control, sinumerik: bool) -> Result<()> {
-    control.state.x_is_as_written = true;
+    control.state.set(modal::DIAMETER_MODE, true);
     if sinumerik {
         sinumerik::transformation::say_what_x_is(control)?;
         if control.commons.read(loc::LATHE_DIAMETER) {
@@ -153,8 +155,8 @@ fn absolute_code(control: &Control) -> Option<FunctionCode> {
 /// # Errors
 /// The machine has no code for the plane; cutter compensation that is on.
 pub fn plane(control: &mut Control, plane: Plane) -> Result<()> {
-    if control.state.plane != Some(plane) {
-        if control.state.plane.is_some() && control.is_compensated() {
+    if !control.state.is(modal::PLANE, plane) {
+        if control.state.get(modal::PLANE).is_some() && control.is_compensated() {
             return PostCode::CompensationOn.err("at a change of the plane");
         }
         let code = control.code(plane_code(plane), "this plane")?;
@@ -169,7 +171,7 @@ pub fn plane(control: &mut Control, plane: Plane) -> Result<()> {
 /// # Errors
 /// As [`plane`].
 pub fn plane_of_arc(control: &mut Control, wanted: Plane, may_change: bool) -> Result<()> {
-    if may_change && control.state.plane != Some(wanted) {
+    if may_change && !control.state.is(modal::PLANE, wanted) {
         let code = control.code(plane_code(wanted), "this plane")?;
         control.g(code);
         return Ok(());
@@ -184,12 +186,12 @@ pub fn plane_of_arc(control: &mut Control, wanted: Plane, may_change: bool) -> R
 /// The control is in another plane and has no code for this one.
 pub fn plane_of_its_own(control: &mut Control, wanted: Plane) -> Result<()> {
     control.begin()?;
-    control.state.in_plane_of_its_own = false;
-    if control.state.plane == Some(wanted) {
+    control.state.set(modal::PLANE_IS_TEMPORARY, false);
+    if control.state.is(modal::PLANE, wanted) {
         return Ok(());
     }
     let has_code = control.code_if_any(plane_code(wanted)).is_some();
-    if control.state.plane.is_none() && !has_code {
+    if control.state.get(modal::PLANE).is_none() && !has_code {
         return Ok(());
     }
     let waiting = control.block.take();

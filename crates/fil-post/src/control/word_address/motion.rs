@@ -14,7 +14,7 @@ use fil_machine::{FunctionCode, Letter};
 use super::{modes, tool};
 use crate::cause::Cause;
 use crate::control::{Control, Function, full_turn, length_plane, vectors};
-use crate::control_state::{Compensation, Meaning};
+use crate::control_state::{Compensation, CutterPath, Meaning, modal};
 use crate::errors::PostCode;
 use crate::operation::{Feed, Lead};
 pub use feed_words::{feed_mode, feed_words, leave_inverse_time};
@@ -224,12 +224,15 @@ pub fn ready(control: &mut Control) -> Result<()> {
 /// # Errors
 /// As [`ready`].
 pub fn ready_for_arc(control: &mut Control, plane: Plane) -> Result<()> {
-    let stays = control.state.in_plane_of_its_own && control.state.plane == Some(plane);
+    let stays = control.state.may_be(modal::PLANE_IS_TEMPORARY, true)
+        && control.state.is(modal::PLANE, plane);
     if stays {
-        control.state.in_plane_of_its_own = false;
+        control.state.set(modal::PLANE_IS_TEMPORARY, false);
     }
     let result = ready(control);
-    control.state.in_plane_of_its_own |= stays;
+    if stays {
+        control.state.set(modal::PLANE_IS_TEMPORARY, true);
+    }
     result
 }
 
@@ -239,16 +242,16 @@ pub fn ready_for_arc(control: &mut Control, plane: Plane) -> Result<()> {
 /// As [`ready`].
 pub fn ready_for_hole(control: &mut Control, in_cycle: bool) -> Result<()> {
     // A cycle says its plane itself; a hole of single moves needs none.
-    let of_hole = std::mem::take(&mut control.state.in_plane_of_its_own);
-    let stays = in_cycle && control.state.in_cycle == Some(true);
+    let of_hole = std::mem::take(&mut control.state.may_be(modal::PLANE_IS_TEMPORARY, true));
+    let stays = in_cycle && control.state.is(modal::CYCLE, true);
     if stays {
-        control.state.in_cycle = Some(false);
+        control.state.set(modal::CYCLE, false);
     }
     let result = ready(control);
     if stays {
-        control.state.in_cycle = Some(true);
+        control.state.set(modal::CYCLE, true);
     }
-    control.state.in_plane_of_its_own = of_hole;
+    control.state.set(modal::PLANE_IS_TEMPORARY, of_hole);
     result
 }
 
@@ -279,7 +282,7 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
             }
         }
     }
-    if control.state.may_be_clamped {
+    if control.state.may_be(modal::AXIS_CLAMP, true) {
         full_turn::refuse_clamped(control, changed)?;
     }
     if control.tables.watches_turns {
@@ -358,7 +361,7 @@ pub(in crate::control) fn note_axis_words(control: &mut Control, written: AxisSe
 #[inline]
 pub fn motion_code(control: &mut Control, code: FunctionCode, modal: bool, cause: Cause) {
     control.check_forgotten();
-    if !modal || control.state.motion != Some(code) {
+    if !modal || !control.state.is(modal::MOTION, code) {
         control.block.g(code, cause);
     }
 }
@@ -387,8 +390,8 @@ pub fn write_turning(control: &mut Control, turning: AxisSet) -> Result<()> {
         control.take_waiting(turning)?;
         length_offset_words(control)?;
     }
-    let compensated = control.state.compensation != Some(Compensation::Off)
-        || control.state.compensation_ends
+    let compensated = !control.state.is(modal::CUTTER_COMP, Compensation::Off)
+        || control.state.may_be(modal::CUTTER_PATH, CutterPath::Leaving)
         || control.compensation_asked() != Compensation::Off;
     let in_plane = compensated && moves_in_plane(control);
     if in_plane {
@@ -415,7 +418,7 @@ const READ_OVER: u64 = 1;
 #[cold]
 fn warn_of_still_blocks(control: &mut Control) {
     let state = &control.state;
-    let begun = state.compensates() && state.compensation_begun;
+    let begun = state.compensates() && state.is(modal::CUTTER_PATH, CutterPath::Moved);
     let between = control.tape.count.saturating_sub(control.moved_in_plane_behind);
     if begun && between > READ_OVER && control.tables.family == ControlFamily::WordAddress {
         let message = format!("{between} blocks before this motion within cutter compensation");
@@ -429,13 +432,13 @@ fn cuts(control: &Control) -> bool {
     let rapid = [loc::RAPID_CODE_XY, loc::RAPID_CODE_Z].map(|at| control.code_if_any(at));
     let mut said = control.block.g_codes().iter().map(|(code, _)| *code);
     let motion = said.rfind(|code| control.meaning(*code) == Meaning::Motion);
-    let motion = motion.or(control.state.motion);
+    let motion = motion.or(control.state.get(modal::MOTION));
     !rapid.contains(&motion)
 }
 
 /// True when the block moves an axis of the plane in force.
 fn moves_in_plane(control: &Control) -> bool {
-    let plane = control.state.plane.unwrap_or(Plane::Xy);
+    let plane = control.state.get(modal::PLANE).unwrap_or(Plane::Xy);
     plane.axes().into_iter().any(|number| control.block_has(control.tables.axis(number).letter))
 }
 

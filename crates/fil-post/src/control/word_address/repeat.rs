@@ -7,7 +7,7 @@ use fil_machine::{FunctionCode, Letter, letters};
 
 use crate::cause::Cause;
 use crate::control::Control;
-use crate::control_state::{Meaning, TOOL_CHANGE};
+use crate::control_state::{Meaning, TOOL_CHANGE, modal};
 use crate::errors::PostCode;
 
 /// Sets the words, or ends all of them. What they left on the tape is not where the
@@ -77,7 +77,7 @@ fn refuse_center(letter: Letter) -> Result<()> {
 
 /// Refuses a word that would bend an arc or drill another hole.
 fn refuse_in_arc_or_cycle(control: &Control, letter: Letter) -> Result<()> {
-    let in_cycle = control.state.in_cycle != Some(false)
+    let in_cycle = !control.state.is(modal::CYCLE, false)
         || control.block.g_codes().iter().any(|(code, _)| control.meaning(*code) == Meaning::Cycle);
     let arc = OF_AN_ARC.iter().any(|center| control.block_has(Letter::of(*center)));
     let beside = BESIDE_MOTION.contains(&letter.byte()) && !(in_cycle && letter == letters::F);

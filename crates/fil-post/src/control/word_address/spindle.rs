@@ -14,7 +14,7 @@ use fil_machine::setting::CodeAt;
 
 use super::modes;
 use crate::control::{Control, Function, sinumerik};
-use crate::control_state::Rotation;
+use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
 use crate::operation::{SideSpindle, Spindle, SpindleSpeed, SpindleTurn};
 pub(super) use range::speed_in_range;
@@ -102,13 +102,13 @@ fn is_main(control: &Control) -> bool {
 /// S is a surface speed when the next motion is made, whoever has said it.
 pub fn is_of_surface(control: &Control) -> bool {
     let asked = matches!(control.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_)));
-    asked || control.state.surface_speed == Some(true) && !waits(control)
+    asked || control.state.is(modal::SURFACE_SPEED, true) && !waits(control)
 }
 
 /// Says the highest speed, in a block of its own or later in that of the surface speed.
 fn limit_block(control: &mut Control, limit: f64) -> Result<()> {
     control.begin()?;
-    control.state.speed_limit = Some(limit);
+    control.state.set(modal::SPEED_LIMIT, limit);
     if control.tables.family == ControlFamily::Sinumerik {
         return sinumerik::spindle::limit(control, limit);
     }
@@ -138,7 +138,7 @@ fn limit_beside_surface_speed(control: &mut Control) -> Result<()> {
 /// have changed it.
 fn require_unit(control: &mut Control) -> Result<()> {
     let unit = control.require_unit()?;
-    match control.state.unit == Some(unit) {
+    match control.state.is(modal::UNITS, unit) {
         true => Ok(()),
         false => modes::require(control, unit),
     }
@@ -149,7 +149,9 @@ fn require_unit(control: &mut Control) -> Result<()> {
 /// # Errors
 /// Neither the CL file nor the machine gives one.
 fn require_limit(control: &mut Control) -> Result<()> {
-    if control.state.speed_limit.is_some() || control.commons.read(loc::SPINDLE_CSS_UNLIMITED) {
+    if control.state.get(modal::SPEED_LIMIT).is_some()
+        || control.commons.read(loc::SPINDLE_CSS_UNLIMITED)
+    {
         return Ok(());
     }
     match control.commons.dbl_opt(loc::SPINDLE_CSS_LIMIT) {
@@ -282,7 +284,7 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
 /// Refuses to turn a main spindle that is an axis under MODE/MILL while that axis is clamped.
 fn refuse_clamped(control: &Control) -> Result<()> {
     let is_axis = control.tables.mill_turn.is_some() && !control.tables.mills();
-    if !is_axis || !control.state.may_be_clamped {
+    if !is_axis || !control.state.may_be(modal::AXIS_CLAMP, true) {
         return Ok(());
     }
     PostCode::TurnsClamped.err("the main spindle would turn, and its axis is clamped")
@@ -291,7 +293,8 @@ fn refuse_clamped(control: &Control) -> Result<()> {
 /// Warns of turns a minute above the highest speed that MAXRPM has set: it stays in force, and
 /// many controls hold each speed to it, not only a surface speed.
 fn warn_above_limit(control: &mut Control, speed: Option<SpindleSpeed>) {
-    let (Some(SpindleSpeed::Revolutions(speed)), Some(limit)) = (speed, control.state.speed_limit)
+    let (Some(SpindleSpeed::Revolutions(speed)), Some(limit)) =
+        (speed, control.state.get(modal::SPEED_LIMIT))
     else {
         return;
     };
@@ -382,7 +385,7 @@ pub fn turn_on(control: &mut Control, clockwise: bool) -> Result<()> {
 fn counts_as(control: &Control, speed: SpindleSpeed) -> bool {
     let of_surface = !matches!(speed, SpindleSpeed::Revolutions(_));
     let is_open = control.code_if_any(loc::SPINDLE_CSS_CODE).is_some();
-    !is_open || control.state.surface_speed == Some(of_surface)
+    !is_open || control.state.is(modal::SURFACE_SPEED, of_surface)
 }
 
 /// Adds S, and on a lathe the code for revolutions or surface speed.
@@ -397,7 +400,7 @@ fn speed_words(control: &mut Control, speed: SpindleSpeed) -> Result<()> {
     control.speed = Some(speed);
     let of_surface = !matches!(speed, SpindleSpeed::Revolutions(_));
     let letter = control.commons.read(loc::SPINDLE_MAX_ADDRESS).filter(|_| of_surface);
-    if let (Some(letter), Some(limit)) = (letter, control.state.speed_limit) {
+    if let (Some(letter), Some(limit)) = (letter, control.state.get(modal::SPEED_LIMIT)) {
         control.require_on_tape(letter, "the highest spindle speed")?;
         control.word_rounded(letter, limit, Rounding::Rate)?;
         control.state.doubt(letter);
@@ -415,7 +418,7 @@ fn code_of_turns(control: &Control) -> Option<FunctionCode> {
 
 /// S is known to count turns a minute.
 pub fn counts_turns(control: &Control) -> bool {
-    control.state.surface_speed == Some(false)
+    control.state.is(modal::SURFACE_SPEED, false)
 }
 
 /// What S says: turns a minute within the range, or a surface speed, which counts meters
@@ -446,7 +449,7 @@ pub(in crate::control) fn place(control: &mut Control, at: CodeAt, what: &str) -
         Some(code) => control.m(code),
         None => {
             control.warn_no_code(what);
-            control.state.rotation = Rotation::Unsaid;
+            control.state.set(modal::SPINDLE, Rotation::Unsaid);
         }
     }
     let placement = match control.codes.speeds_are_feeds() && !control.block.g_codes().is_empty() {

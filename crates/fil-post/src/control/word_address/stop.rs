@@ -4,6 +4,7 @@ use fil_diag::Result;
 use fil_machine::locations as loc;
 
 use crate::control::{Control, program};
+use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::{End, Stop};
 
@@ -27,7 +28,7 @@ pub fn stop(control: &mut Control, stop: Stop) -> Result<()> {
 /// # Errors
 /// The machine has no such code; and as [`program::end`].
 pub fn end(control: &mut Control, end: End) -> Result<()> {
-    if control.state.ended {
+    if control.state.may_be(modal::PROGRAM_END, true) {
         if end == End::OfFile {
             return program::close_ended(control);
         }

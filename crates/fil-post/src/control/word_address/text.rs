@@ -8,8 +8,8 @@ use fil_machine::locations::{self as loc, SeqnoOnText};
 use super::modes;
 use crate::control::Control;
 use crate::control::texts::{clean_message, without_blanks};
-use crate::control_state::Meaning;
 use crate::control_state::text::{self, TextWords};
+use crate::control_state::{Meaning, modal};
 use crate::errors::PostCode;
 
 /// Writes the text of an INSERT. The machine's end-of-block character splits it
@@ -50,11 +50,11 @@ fn say_what_it_counts_on(control: &mut Control, block: &str) -> Result<()> {
     let pauses = says(loc::DWELL_CODE);
     let is_length =
         |(letter, value): &(Letter, f64)| b"XYZUVWIJKRF".contains(&letter.byte()) && *value != 0.0;
-    let needs_unit = control.state.unit.is_none()
+    let needs_unit = control.state.get(modal::UNITS).is_none()
         && !pauses
         && words.iter().any(is_length)
         && !is_said(|meaning| matches!(meaning, Meaning::Unit(_)));
-    let needs_turns = control.state.surface_speed.is_none()
+    let needs_turns = control.state.get(modal::SURFACE_SPEED).is_none()
         && control.code_if_any(loc::SPINDLE_CSS_CODE).is_some()
         && !(pauses || says(loc::SPINDLE_MAX_CODE))
         && words.iter().any(|(letter, _)| *letter == S)

@@ -13,6 +13,7 @@ use fil_machine::{FunctionCode, Letter, letters};
 use super::motion::{self, Motion};
 use super::{modes, osp_thread};
 use crate::control::{Control, program};
+use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
 use crate::operation::{Thread, ThreadPasses};
 use crate::path::thread::{Shape, cycle_of, go_above, least_depth, on_machine};
@@ -39,8 +40,8 @@ pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Res
     motion::ready(&mut post.control)?;
     // The cycles of a lathe count in the plane in force, which a live tool or a text has left.
     let begins = program::state_at_start(&post.control.commons, None);
-    let other = post.control.state.plane.filter(|plane| *plane != Plane::Zx);
-    if begins.plane.or(other).is_some() {
+    let other = post.control.state.get(modal::PLANE).filter(|plane| *plane != Plane::Zx);
+    if begins.get(modal::PLANE).or(other).is_some() {
         modes::plane_of_its_own(&mut post.control, Plane::Zx)?;
     }
     if cycle != ThreadCycle::CycleOfAllPassesOfLinuxcnc {
@@ -344,7 +345,7 @@ fn stands_at(control: &mut Control, [x, z]: [f64; 2]) -> Result<()> {
         control.commons.set_last_output(axis.letter, axis.value(position)?);
         control.state.trust(axis.letter);
     }
-    control.state.motion = None;
+    control.state.forget(modal::MOTION, Source::Post);
     motion::end_lead(control);
     Ok(())
 }

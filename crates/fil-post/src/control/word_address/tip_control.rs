@@ -6,6 +6,7 @@ use fil_machine::{FunctionCode, locations as loc};
 
 use crate::cause::Cause;
 use crate::control::Control;
+use crate::control_state::modal;
 use crate::errors::PostCode;
 
 /// Ends all length offsets of the controls that have tool-tip control.
@@ -40,7 +41,7 @@ pub fn end(control: &mut Control) -> Result<()> {
     let code = control.code_if_any(loc::TOOL_LENGTH_CANCEL_CODE).unwrap_or(CANCEL);
     control.g_of_record(code);
     control.write_block()?;
-    control.state.tip_control = Some(false);
+    control.state.set(modal::TCP, false);
     control.block = waiting;
     Ok(())
 }

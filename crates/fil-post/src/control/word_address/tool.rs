@@ -8,6 +8,7 @@ use fil_machine::locations::{self as loc, ControlFamily, ToolFormat};
 
 use super::motion::{self, Motion};
 use crate::control::{Control, length_plane, sinumerik};
+use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
 use crate::operation::ToolChange;
 
@@ -33,7 +34,7 @@ pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
     let is_edge = control.tables.family == ControlFamily::Sinumerik;
     let offset = if is_edge { sinumerik::tool::edge_of(wanted) } else { wanted.offset };
     let stays =
-        control.state.tool == Some(wanted.tool) && control.state.tool_offset == Some(offset);
+        control.state.is(modal::TOOL, wanted.tool) && control.state.is(modal::TOOL_OFFSET, offset);
     Ok(!modal || !stays)
 }
 
@@ -52,7 +53,7 @@ fn check_station(control: &Control, tool: i64) -> Result<()> {
 /// # Errors
 /// A tool or offset that does not fit, an offset the machine can't call.
 pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
-    let before = control.state.motion;
+    let before = control.state.get(modal::MOTION);
     let one_word = control.commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode;
     if one_word {
         tool_and_offset(control, wanted)?;
@@ -64,7 +65,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     }
     control.state.has_tool(Some(wanted.tool));
     control.state.length_of_new_tool(one_word);
-    control.state.tool_offset = Some(wanted.offset);
+    control.state.set(modal::TOOL_OFFSET, wanted.offset);
     Ok(())
 }
 
@@ -105,7 +106,7 @@ pub(in crate::control) fn restate(control: &mut Control) {
         for number in control.tables.present().numbers() {
             control.state.tool_change_moves(control.tables.axis(number).letter);
         }
-        control.state.motion = None;
+        control.state.forget(modal::MOTION, Source::Post);
     }
 }
 
@@ -132,7 +133,8 @@ pub(in crate::control) fn tool_blocks(control: &mut Control, tool: i64) -> Resul
 /// changes it. Another one would never come there.
 fn without_code(control: &mut Control, tool: i64) -> Result<()> {
     let calls = control.tables.addresses.required(T)?.is_some();
-    if let Some(before) = control.state.tool.filter(|before| *before != tool && !calls) {
+    if let Some(before) = control.state.get(modal::TOOL).filter(|before| *before != tool && !calls)
+    {
         return PostCode::NoCode.err(format!(
             "tool {tool} after tool {before}, and the machine has no tool change: post one tool a \
              file, or take LOADTL with a FIL section that stops the program"
@@ -198,12 +200,12 @@ fn length_offset(
     motion::axis_word(control, 2, &Motion::new(position, AxisSet::Z, 0))?;
     length_number(control, wanted.offset)?;
     control.write_block()?;
-    control.state.motion = None;
+    control.state.forget(modal::MOTION, Source::Post);
     Ok(())
 }
 
 /// Puts the number of the offset that a length is called with.
 pub(super) fn length_number(control: &mut Control, offset: i64) -> Result<()> {
-    control.state.called_offset = Some(offset);
+    control.state.set(modal::LENGTH_OFFSET, offset);
     control.word(H, offset as f64)
 }

@@ -13,6 +13,7 @@ use crate::control::Control;
 use crate::control::family;
 use crate::control::sinumerik::transformation;
 use crate::control::word_address::motion::{self, Motion};
+use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::path::{linearization, rotary};
@@ -128,12 +129,12 @@ fn begin(post: &mut Post, radius: f64) -> Result<()> {
         return Ok(());
     }
     let line = control.code(loc::LINEAR_CODE, "linear motion")?;
-    if control.state.motion != Some(line) {
+    if !control.state.is(modal::MOTION, line) {
         control.g(line);
         control.write_block()?;
     }
     call(control, radius)?;
-    control.state.motion = Some(line);
+    control.state.set(modal::MOTION, line);
     post.path.cylinder = Some(radius);
     Ok(())
 }

@@ -31,7 +31,7 @@ pub fn code(control: &Control, cycle: &Cycle, hole: &Hole) -> Option<FunctionCod
     let at = match (cycle.kind, hole.along) {
         (CycleKind::Tap, along) => {
             let [right, left] = taps(along)?;
-            let turns_left = control.state.rotation == Rotation::Counterclockwise;
+            let turns_left = control.state.rotation() == Rotation::Counterclockwise;
             return control.code_if_any(left).filter(|_| turns_left).or(control.code_if_any(right));
         }
         (_, along @ 2) if drills(control, cycle, along) => loc::MILL_TURN_FACE_DRILL_CODE,
@@ -125,7 +125,7 @@ fn from_its_level(
 /// The lead of a tap times the turns of the live tool.
 fn feed_of_tap(control: &mut Control, cycle: &Cycle, along: usize) -> Result<Feed> {
     let has_left = taps(along).is_some_and(|[_, left]| control.code_if_any(left).is_some());
-    match control.state.rotation {
+    match control.state.rotation() {
         Rotation::Clockwise => {}
         Rotation::Standing | Rotation::Unsaid => {
             return PostCode::CycleForm

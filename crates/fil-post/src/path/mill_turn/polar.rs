@@ -18,7 +18,7 @@ use crate::control::sinumerik::transformation;
 use crate::control::word_address::modes;
 use crate::control::word_address::motion::Motion;
 use crate::control::{Control, Function};
-use crate::control_state::Place;
+use crate::control_state::{Place, Source, modal};
 use crate::errors::PostCode;
 use crate::operation::{Arc, Feed, MotionKind, Target};
 use crate::path::arc::{flat, sweep};
@@ -111,7 +111,7 @@ pub(super) fn begin(
     super::set_mode(control, MillTurnMode::PolarInterpolation)?;
     match control.tables.transforms {
         true => modes::plane_of_its_own(control, Plane::Xy)?,
-        false => control.state.plane = Some(Plane::Xy),
+        false => control.state.set(modal::PLANE, Plane::Xy),
     }
     let end = Point2::new(point.x, point.y);
     let turn = libm::atan2(point.y, point.x);
@@ -313,7 +313,7 @@ pub(super) fn end(post: &mut Post) -> Result<()> {
     }
     match control.tables.transforms {
         true => modes::plane_of_turning(control)?,
-        false => control.state.plane = None,
+        false => control.state.forget(modal::PLANE, Source::Post),
     }
     let here = post.path.point.map(|point| Target { point, axis: post.path.axis, word: 0 });
     let here = here.map(|target| rotary::transformed(post, target).0);

@@ -8,6 +8,7 @@ use fil_machine::setting::CodeAt;
 
 use super::super::spindle::{self, counted};
 use crate::control::{Control, sinumerik};
+use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::Feed;
 
@@ -28,7 +29,7 @@ pub fn feed_words(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
 /// The machine has no such code.
 #[inline]
 pub fn feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
-    if control.state.feed_mode != Some(feed.mode) {
+    if !control.state.is(modal::FEED_MODE, feed.mode) {
         return say_feed_mode(control, feed);
     }
     if feed.mode == FeedMode::PerRevolution { refuse_standing(control) } else { Ok(()) }
@@ -89,7 +90,7 @@ fn say_feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
 /// # Errors
 /// The machine has no code for a feed a minute.
 pub fn leave_inverse_time(control: &mut Control) -> Result<()> {
-    if control.state.feed_mode != Some(FeedMode::InverseTime) {
+    if !control.state.is(modal::FEED_MODE, FeedMode::InverseTime) {
         return Ok(());
     }
     let code = control.code(loc::FEED_UPM_CODE, "this feed mode")?;

@@ -11,6 +11,7 @@ use fil_machine::rounding::Rounding;
 
 use crate::cause::Cause;
 use crate::control::Control;
+use crate::control_state::modal;
 use crate::operation::Lead;
 
 /// Most threads whose lead is said at once: as many an inch.
@@ -25,7 +26,7 @@ const TO_THE_DIGIT: f64 = 1e-7;
 /// # Errors
 /// As a block.
 pub fn lead_mode(control: &mut Control, cause: Cause) -> Result<()> {
-    let is_said = control.state.feed_mode == Some(FeedMode::PerRevolution);
+    let is_said = control.state.is(modal::FEED_MODE, FeedMode::PerRevolution);
     let Some(code) = control.code_if_any(loc::FEED_UPR_CODE).filter(|_| !is_said) else {
         return Ok(());
     };
@@ -39,7 +40,7 @@ pub fn lead_mode(control: &mut Control, cause: Cause) -> Result<()> {
 /// Behind a lead F is a feed again, in the format of its mode.
 pub fn end_lead(control: &mut Control) {
     control.state.doubt(F);
-    let mode = control.state.feed_mode.unwrap_or(FeedMode::PerMinute);
+    let mode = control.state.get(modal::FEED_MODE).unwrap_or(FeedMode::PerMinute);
     control.tables.format_feed(mode);
 }
 

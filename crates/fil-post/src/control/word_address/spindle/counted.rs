@@ -6,7 +6,7 @@ use fil_machine::locations::{self as loc, ControlFamily};
 
 use super::{code_of_turns, is_of_surface, may_turn};
 use crate::control::{Control, sinumerik};
-use crate::control_state::Rotation;
+use crate::control_state::{Rotation, Source, modal};
 use crate::errors::PostCode;
 use crate::operation::CountedSpindle;
 
@@ -28,7 +28,7 @@ pub fn may_hold_surface_speed(control: &Control) -> bool {
 
 /// Which spindle the control counts is not known.
 pub fn is_unknown(control: &Control) -> bool {
-    is_chosen(control) && control.state.side_is_counted.is_none()
+    is_chosen(control) && control.state.get(modal::MASTER_IS_SUB).is_none()
 }
 
 /// Makes the control count one of the spindles, in a block of its own; nothing where it does.
@@ -44,7 +44,7 @@ pub fn choose(control: &mut Control, chosen: CountedSpindle) -> Result<()> {
              its own",
         );
     }
-    if control.state.side_is_counted == Some(chosen.is_side) {
+    if control.state.is(modal::MASTER_IS_SUB, chosen.is_side) {
         return Ok(());
     }
     if control.state.may_be_skipped() {
@@ -61,7 +61,7 @@ pub fn choose(control: &mut Control, chosen: CountedSpindle) -> Result<()> {
         control.counts_side = chosen.is_side;
         forget_the_other(control);
     }
-    control.state.side_is_counted = Some(chosen.is_side);
+    control.state.set(modal::MASTER_IS_SUB, chosen.is_side);
     Ok(())
 }
 
@@ -101,11 +101,13 @@ fn write(control: &mut Control, is_side: bool) -> Result<()> {
 fn forget_the_other(control: &mut Control) {
     (control.turning, control.turned) = (None, None);
     (control.speed, control.range) = (None, None);
-    control.state.rotation = Rotation::InDoubt;
-    control.state.range = None;
+    control.state.set(modal::SPINDLE, Rotation::InDoubt);
+    control.state.forget(modal::GEAR, Source::Post);
     control.state.doubt(fil_machine::letters::S);
     if may_hold_surface_speed(control) {
-        std::mem::swap(&mut control.state.speed_limit, &mut control.limit_of_other);
+        let limit = control.state.get(modal::SPEED_LIMIT);
+        let other = std::mem::replace(&mut control.limit_of_other, limit);
+        control.state.set_if_known(modal::SPEED_LIMIT, other, Source::NotCommanded);
     }
 }
 

@@ -5,6 +5,7 @@ use fil_machine::locations as loc;
 
 use super::is_main;
 use crate::control::{Control, Function};
+use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::SpindleRange;
 
@@ -85,7 +86,7 @@ pub(in crate::control) fn take_range_of(control: &mut Control, speed: f64) -> Re
     };
     let before = control.range.take().filter(|index| {
         let code = control.code_if_any(loc::RANGE_CODES[*index]);
-        code.is_some() && control.state.range == code
+        code.is_some() && control.state.get(modal::GEAR) == code
     });
     let speed = within_range(control, speed);
     control.range = before;

@@ -4,7 +4,7 @@ use fil_diag::Result;
 use fil_machine::locations as loc;
 
 use crate::control::{Control, Function};
-use crate::control_state::Rotation;
+use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
 use crate::operation::SpindleTurn;
 
@@ -14,7 +14,7 @@ pub const BEHIND_STOP: &str =
 
 /// The spindle turns, or it is not known to stand.
 pub fn may_turn(control: &Control) -> bool {
-    match control.state.rotation {
+    match control.state.rotation() {
         Rotation::Standing => waits(control),
         Rotation::Unsaid => control.turning.is_some(),
         _ => true,
@@ -28,7 +28,7 @@ pub(super) fn waits(control: &Control) -> bool {
 
 /// The spindle is known to stand, and nothing that waits for a motion turns it.
 pub fn stands(control: &Control) -> bool {
-    control.state.rotation == Rotation::Standing && !waits(control)
+    control.state.rotation() == Rotation::Standing && !waits(control)
 }
 
 /// A tool change may have stopped the spindle, and nothing that waits for a motion turns it.
@@ -39,7 +39,7 @@ pub fn may_stand_behind_change(control: &Control) -> bool {
 /// A stop of the program may have stopped the spindle, as some machines do, and nothing that
 /// waits for a motion turns it.
 pub fn may_stand_behind_stop(control: &Control) -> bool {
-    control.state.halted && may_turn(control) && !waits(control)
+    control.state.may_be(modal::SPINDLE_HALTED, true) && may_turn(control) && !waits(control)
 }
 
 /// Why a spindle that does not turn is none for a thread or a tap.
@@ -52,7 +52,7 @@ pub fn why_it_stands<'a>(control: &Control, usual: &'a str) -> &'a str {
 
 /// The spindle turns clockwise: as the tape says it, else as the CL file does.
 pub fn clockwise(control: &Control) -> Option<bool> {
-    match control.state.rotation {
+    match control.state.rotation() {
         Rotation::Clockwise => Some(true),
         Rotation::Counterclockwise => Some(false),
         Rotation::Unsaid => control.turning,

@@ -1,0 +1,473 @@
+//! The modal groups of the control, as a table: one row a group says what it starts as and what
+//! a block that can't be read leaves of it; two alternatives of block delete are joined alike
+//! for all of them.
+
+use std::marker::PhantomData;
+
+use fil_machine::FunctionCode;
+use fil_machine::modes::{FeedMode, Plane, Unit};
+
+use super::{Compensation, CutterPath, Distance, Length, Rotation};
+
+/// Who made a group unknown, or last wrote it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Nothing in this program has commanded it.
+    NotCommanded,
+    /// A block that the post wrote.
+    Post,
+    /// INSERT, POSTN, PREFUN, AUXFUN, a text of the machine, an editing macro.
+    Author,
+}
+
+/// What is known of a modal group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Know<T> {
+    /// It has this value.
+    Known(T),
+    /// It depends on block delete: its value with the blocks run and with them skipped, each
+    /// `None` where that is not known.
+    Either([Option<T>; 2]),
+    /// It may have any value.
+    Unknown(Source),
+}
+
+impl<T: Copy + PartialEq> Know<T> {
+    /// The value, if it does not depend on anything.
+    #[inline]
+    pub fn value(self) -> Option<T> {
+        match self {
+            Know::Known(value) => Some(value),
+            Know::Either([Some(one), Some(other)]) if one == other => Some(one),
+            _ => None,
+        }
+    }
+
+    /// True if it may have this value: in one alternative, or since it is unknown.
+    pub fn may_be(self, wanted: T) -> bool {
+        match self {
+            Know::Known(value) => value == wanted,
+            Know::Either(values) => values.iter().any(|it| it.is_none_or(|it| it == wanted)),
+            Know::Unknown(_) => true,
+        }
+    }
+
+    /// What holds if either may be in force, `self` with the blocks of block delete run.
+    pub fn join(self, skipped: Self) -> Self {
+        match (self, skipped) {
+            _ if self == skipped => self,
+            (Know::Unknown(source), Know::Unknown(_)) => Know::Unknown(source),
+            _ => Know::Either([self.value(), skipped.value()]),
+        }
+    }
+}
+
+/// A value of a modal group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// On or off, yes or no.
+    Flag(bool),
+    /// The code in force.
+    Code(FunctionCode),
+    /// A tool or offset number.
+    Number(i64),
+    /// A spindle speed, rev/min.
+    Speed(f64),
+    /// The plane of arcs, cycles and cutter compensation.
+    Plane(Plane),
+    /// G90, G91.
+    Distance(Distance),
+    /// G20, G21.
+    Unit(Unit),
+    /// G93, G94, G95.
+    FeedMode(FeedMode),
+    /// G40, G41, G42.
+    Compensation(Compensation),
+    /// Where the path stands in cutter compensation.
+    CutterPath(CutterPath),
+    /// M3, M4, M5.
+    Rotation(Rotation),
+    /// G43, G49.
+    Length(Length),
+}
+
+/// A type that a modal group holds.
+pub trait Modal: Copy + PartialEq {
+    /// As a value of a group.
+    fn value(self) -> Value;
+    /// Of a value of a group of this type.
+    fn of(value: Value) -> Option<Self>;
+}
+
+macro_rules! modal {
+    ($($kind:ident($type:ty)),*) => {
+        $(impl Modal for $type {
+            #[inline]
+            fn value(self) -> Value {
+                Value::$kind(self)
+            }
+            #[inline]
+            fn of(value: Value) -> Option<Self> {
+                match value {
+                    Value::$kind(value) => Some(value),
+                    _ => None,
+                }
+            }
+        })*
+    };
+}
+
+modal!(
+    Flag(bool),
+    Code(FunctionCode),
+    Number(i64),
+    Speed(f64),
+    Plane(Plane),
+    Distance(Distance),
+    Unit(Unit),
+    FeedMode(FeedMode),
+    Compensation(Compensation),
+    CutterPath(CutterPath),
+    Rotation(Rotation),
+    Length(Length)
+);
+
+/// What a block that can't be read leaves of a group.
+#[derive(Clone, Copy, Debug)]
+enum Unread {
+    /// Nothing: it may have any value.
+    Unknown,
+    /// All: such blocks are taken not to change it.
+    Kept,
+    /// What the function makes of it.
+    By(fn(Know<Value>) -> Know<Value>),
+}
+
+/// A row of the table.
+struct Row {
+    /// The value at the start of a program.
+    start: Know<Value>,
+    unread: Unread,
+}
+
+macro_rules! groups {
+    ($($(#[doc = $doc:literal])+ $name:ident / $group:ident: $type:ty = $start:expr, $unread:expr;)*) => {
+        /// A modal group of the control.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Group {
+            $($(#[doc = $doc])+ $group,)*
+        }
+
+        /// Number of groups.
+        const COUNT: usize = [$(Group::$group),*].len();
+
+        /// One row a group, in their order.
+        const ROWS: [Row; COUNT] = [$(Row { start: $start, unread: $unread }),*];
+
+        $($(#[doc = $doc])+ pub const $name: Of<$type> = Of::new(Group::$group);)*
+    };
+}
+
+/// A group with the type of its values.
+#[derive(Clone, Copy, Debug)]
+pub struct Of<T> {
+    /// The group.
+    pub group: Group,
+    values: PhantomData<T>,
+}
+
+impl<T> Of<T> {
+    const fn new(group: Group) -> Self {
+        Of { group, values: PhantomData }
+    }
+}
+
+const NEVER: Know<Value> = Know::Unknown(Source::NotCommanded);
+const OFF: Know<Value> = Know::Known(Value::Flag(false));
+const ON: Know<Value> = Know::Known(Value::Flag(true));
+use Unread::{By, Kept, Unknown};
+
+groups! {
+    /// The code of the last motion.
+    MOTION / Motion: FunctionCode = NEVER, Unknown;
+    /// The plane of arcs, cycles and cutter compensation (G17, G18, G19).
+    PLANE / Plane: Plane = NEVER, Unknown;
+    /// The plane is one that a single cycle or arc needed.
+    PLANE_IS_TEMPORARY / PlaneIsTemporary: bool = OFF, Kept;
+    /// How coordinates count (G90, G91).
+    DISTANCE / Distance: Distance = Know::Known(Value::Distance(Distance::Absolute)), Unknown;
+    /// The unit of lengths (G20, G21).
+    UNITS / Units: Unit = NEVER, Unknown;
+    /// X counts as the post writes it: on a lathe as a diameter, in a transformation as a radius.
+    DIAMETER_MODE / DiameterMode: bool = ON, Unknown;
+    /// What F means (G93, G94, G95).
+    FEED_MODE / FeedMode: FeedMode = NEVER, Unknown;
+    /// Tool center point control (G43.4, TRAORI, M128).
+    TCP / Tcp: bool = OFF, Unknown;
+    /// X, Y and Z count in a tilted work plane.
+    WORK_PLANE / WorkPlane: bool = OFF, Unknown;
+    /// Cutter compensation (G40, G41, G42).
+    CUTTER_COMP / CutterComp: Compensation = Know::Known(Value::Compensation(Compensation::Off)), Unknown;
+    /// Whether a motion has begun or ended it.
+    CUTTER_PATH / CutterPath: CutterPath = Know::Known(Value::CutterPath(CutterPath::Unmoved)), Kept;
+    /// A canned cycle is in force: each position drills a hole.
+    CYCLE / Cycle: bool = OFF, Unknown;
+    /// The code of the last canned cycle.
+    CYCLE_CODE / CycleCode: FunctionCode = NEVER, Unknown;
+    /// The code of the level that cycles return to (G98, G99).
+    RETURN_LEVEL / ReturnLevel: FunctionCode = NEVER, Unknown;
+    /// The tool in the spindle.
+    TOOL / Tool: i64 = NEVER, By(either_stays);
+    /// The offset that was called with it.
+    TOOL_OFFSET / ToolOffset: i64 = NEVER, Unknown;
+    /// A function changed the tool (M6).
+    TOOL_CHANGED / ToolChanged: bool = NEVER, Kept;
+    /// A T word of an author changed the tool by itself, as on a turret.
+    TOOL_WORD / ToolWord: bool = NEVER, Kept;
+    /// Tool length offset, as far as functions have activated or canceled it (G43, G49).
+    LENGTH / Length: Length = Know::Known(Value::Length(Length::Unsaid)), Kept;
+    /// The offset number of the tool length offset (H).
+    LENGTH_OFFSET / LengthOffset: i64 = NEVER, Unknown;
+    /// An author named a tool length offset, or canceled it.
+    LENGTH_WORD / LengthWord: bool = NEVER, Kept;
+    /// The code of the work offset (G54).
+    WORK_OFFSET / WorkOffset: FunctionCode = NEVER, Unknown;
+    /// How the spindle was last told to turn.
+    SPINDLE / Spindle: Rotation = Know::Known(Value::Rotation(Rotation::Unsaid)), By(rotation_unread);
+    /// M0 or M1 came since the spindle was turned: some machines stop it.
+    SPINDLE_HALTED / SpindleHalted: bool = OFF, Kept;
+    /// The sub-spindle of a lathe is the master spindle.
+    MASTER_IS_SUB / MasterIsSub: bool = NEVER, Unknown;
+    /// S is a surface speed (G96, G97).
+    SURFACE_SPEED / SurfaceSpeed: bool = NEVER, By(surface_speed_unread);
+    /// The highest speed of the spindle, rev/min.
+    SPEED_LIMIT / SpeedLimit: f64 = NEVER, Kept;
+    /// The code of the gear.
+    GEAR / Gear: FunctionCode = NEVER, Unknown;
+    /// The rotary axes are clamped.
+    AXIS_CLAMP / AxisClamp: bool = OFF, Kept;
+    /// The program has ended (M2, M30).
+    PROGRAM_END / ProgramEnd: bool = OFF, Kept;
+}
+
+/// A tool that depends on block delete is one until a tool change.
+fn either_stays(before: Know<Value>) -> Know<Value> {
+    match before {
+        Know::Either(_) => before,
+        _ => Know::Unknown(Source::Author),
+    }
+}
+
+/// Texts of a shop are taken not to turn a spindle that runs clockwise.
+fn rotation_unread(before: Know<Value>) -> Know<Value> {
+    match before {
+        Know::Known(Value::Rotation(rotation)) => Know::Known(rotation.doubted().value()),
+        other => other,
+    }
+}
+
+/// S may still be a surface speed if it was one.
+fn surface_speed_unread(before: Know<Value>) -> Know<Value> {
+    match before {
+        Know::Known(Value::Flag(true)) => Know::Either([Some(Value::Flag(true)), None]),
+        Know::Known(_) => Know::Unknown(Source::Author),
+        other => other,
+    }
+}
+
+/// One group: what is known, and the count of changes when it was last written.
+#[derive(Clone, Copy, Debug)]
+struct Cell {
+    know: Know<Value>,
+    written: u32,
+}
+
+/// What is known of all modal groups.
+#[derive(Clone, Debug)]
+pub struct Groups {
+    cells: [Cell; COUNT],
+    /// Counts the writes, so that two groups can be told apart by which was written last.
+    writes: u32,
+    /// That count when the last block of an author began.
+    before_foreign: u32,
+}
+
+impl Groups {
+    /// As a program starts.
+    pub fn at_start() -> Self {
+        let cells = ROWS.map(|row| Cell { know: row.start, written: 0 });
+        Groups { cells, writes: 0, before_foreign: 0 }
+    }
+
+    /// The value of a group, if it is known.
+    #[inline]
+    pub fn get<T: Modal>(&self, of: Of<T>) -> Option<T> {
+        match self.cells[of.group as usize].know {
+            Know::Known(value) => T::of(value),
+            know => know.value().and_then(T::of),
+        }
+    }
+
+    /// True if a group certainly has a value.
+    #[inline]
+    pub fn is<T: Modal>(&self, of: Of<T>, value: T) -> bool {
+        self.get(of) == Some(value)
+    }
+
+    /// True if a group may have a value.
+    pub fn may_be<T: Modal>(&self, of: Of<T>, value: T) -> bool {
+        self.cells[of.group as usize].know.may_be(value.value())
+    }
+
+    /// What is known of a group.
+    pub fn know<T: Modal>(&self, of: Of<T>) -> Know<T> {
+        let typed = |value: Option<Value>| value.and_then(T::of);
+        match self.cells[of.group as usize].know {
+            Know::Known(value) => T::of(value).map_or(Know::Unknown(Source::Post), Know::Known),
+            Know::Either(values) => Know::Either(values.map(typed)),
+            Know::Unknown(source) => Know::Unknown(source),
+        }
+    }
+
+    /// True if a group depends on block delete.
+    pub fn depends_on_block_delete<T>(&self, of: Of<T>) -> bool {
+        matches!(self.cells[of.group as usize].know, Know::Either(_))
+    }
+
+    /// A block gives a group a value.
+    #[inline]
+    pub fn set<T: Modal>(&mut self, of: Of<T>, value: T) {
+        self.write(of.group, Know::Known(value.value()));
+    }
+
+    /// The same, or it becomes unknown.
+    pub fn set_if_known<T: Modal>(&mut self, of: Of<T>, value: Option<T>, source: Source) {
+        match value {
+            Some(value) => self.set(of, value),
+            None => self.forget(of, source),
+        }
+    }
+
+    /// A group may have any value.
+    pub fn forget<T>(&mut self, of: Of<T>, source: Source) {
+        self.write(of.group, Know::Unknown(source));
+    }
+
+    /// A block that can't be read may have changed a group.
+    pub fn doubt<T>(&mut self, of: Of<T>) {
+        let cell = &mut self.cells[of.group as usize];
+        cell.know = unread(of.group as usize, cell.know, Source::Author);
+    }
+
+    #[inline]
+    fn write(&mut self, group: Group, know: Know<Value>) {
+        self.writes += 1;
+        self.cells[group as usize] = Cell { know, written: self.writes };
+    }
+
+    /// A block that can't be read may have changed all groups.
+    pub fn doubt_all(&mut self, source: Source) {
+        for (at, cell) in self.cells.iter_mut().enumerate() {
+            cell.know = unread(at, cell.know, source);
+        }
+    }
+
+    /// A block of an author begins.
+    pub fn foreign_begins(&mut self) {
+        self.before_foreign = self.writes;
+    }
+
+    /// True if a group was written since the last block of an author began.
+    pub fn changed_since_foreign<T>(&self, of: Of<T>) -> bool {
+        self.cells[of.group as usize].written > self.before_foreign
+    }
+
+    /// When a group was last written, as a count of writes.
+    pub fn written<T>(&self, of: Of<T>) -> u32 {
+        self.cells[of.group as usize].written
+    }
+
+    /// What holds if either may be in force, `self` with the blocks of block delete run.
+    pub fn join(&mut self, skipped: &Groups) {
+        let tool = [self, skipped].map(|it| it.get(TOOL));
+        let offsets =
+            |it: &Groups| (it.get(TOOL_OFFSET), it.get(LENGTH_OFFSET), it.written(LENGTH_WORD));
+        let tool_differs = tool[0] != tool[1] || offsets(self) != offsets(skipped);
+        for (cell, other) in self.cells.iter_mut().zip(&skipped.cells) {
+            cell.know = match (cell.know, other.know) {
+                (Know::Known(Value::Rotation(one)), Know::Known(Value::Rotation(other))) => {
+                    Know::Known(one.or(other).value())
+                }
+                (Know::Known(Value::Length(one)), Know::Known(Value::Length(other))) => {
+                    Know::Known(one.or(other).value())
+                }
+                (one, other) => one.join(other),
+            };
+        }
+        if tool_differs {
+            // A tool with another offset is another one.
+            self.cells[Group::Tool as usize].know =
+                Know::Either(tool.map(|tool| tool.map(Value::Number)));
+        }
+    }
+}
+
+fn unread(at: usize, know: Know<Value>, source: Source) -> Know<Value> {
+    match ROWS[at].unread {
+        Unknown => Know::Unknown(source),
+        Kept => know,
+        By(rule) => rule(know),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn alternatives_of_block_delete_are_both_kept() {
+        let one = Know::Known(Plane::Xy);
+        assert_eq!(one.join(one), one);
+        let either = one.join(Know::Known(Plane::Zx));
+        assert_eq!(either.value(), None);
+        assert!(either.may_be(Plane::Zx) && !either.may_be(Plane::Yz));
+        let open = one.join(Know::Unknown(Source::Author));
+        assert!(open.may_be(Plane::Yz));
+    }
+
+    #[test]
+    fn an_unread_block_leaves_of_each_group_what_its_row_says() {
+        let mut groups = Groups::at_start();
+        groups.set(PLANE, Plane::Zx);
+        groups.set(SPEED_LIMIT, 3000.0);
+        groups.set(SURFACE_SPEED, true);
+        groups.doubt_all(Source::Author);
+        assert_eq!(groups.know(PLANE), Know::Unknown(Source::Author));
+        assert_eq!(groups.get(SPEED_LIMIT), Some(3000.0));
+        assert_eq!(groups.know(SURFACE_SPEED), Know::Either([Some(true), None]));
+    }
+
+    #[test]
+    fn a_tool_with_another_offset_depends_on_block_delete() {
+        let mut groups = Groups::at_start();
+        groups.set(TOOL, 3);
+        groups.set(LENGTH_OFFSET, 3);
+        let skipped = groups.clone();
+        groups.set(LENGTH_OFFSET, 13);
+        groups.join(&skipped);
+        assert!(groups.depends_on_block_delete(TOOL));
+        assert_eq!(groups.get(TOOL), Some(3));
+        groups.doubt(TOOL);
+        assert!(groups.depends_on_block_delete(TOOL));
+    }
+
+    #[test]
+    fn a_write_within_a_foreign_block_is_seen() {
+        let mut groups = Groups::at_start();
+        groups.set(CUTTER_COMP, Compensation::Left);
+        groups.foreign_begins();
+        assert!(!groups.changed_since_foreign(CUTTER_COMP));
+        groups.set(CUTTER_COMP, Compensation::Left);
+        assert!(groups.changed_since_foreign(CUTTER_COMP));
+    }
+}
