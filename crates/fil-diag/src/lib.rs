@@ -5,9 +5,11 @@
 //! what a [`Diag`] points to. Rendering is the command's business alone.
 
 pub mod letter_case;
+mod level;
 pub mod suggest;
 mod text_span;
 
+pub use level::{CodeKind, Level, LevelProfile, Levels};
 pub use text_span::{LineIndex, TextSpan};
 
 /// What a fallible function of any room gives: a value, or the diagnostic that
@@ -39,8 +41,8 @@ impl Severity {
 pub struct Code {
     /// The number after the letter, unique over all crates.
     pub number: u16,
-    /// Error or warning.
-    pub severity: Severity,
+    /// Whether it can be set to another level.
+    pub kind: CodeKind,
     /// What happened, in a few words.
     pub title: &'static str,
     /// Why it is refused or warned about; empty in WebAssembly, see [`reason`].
@@ -52,11 +54,16 @@ pub struct Code {
 impl Code {
     /// The printed name, `E0123` or `W0123`.
     pub fn name(&self) -> String {
-        let letter = match self.severity {
+        let letter = match self.severity() {
             Severity::Error => 'E',
             Severity::Warning => 'W',
         };
         format!("{letter}{:04}", self.number)
+    }
+
+    /// Error or warning, where no level says otherwise.
+    pub const fn severity(&self) -> Severity {
+        self.kind.severity()
     }
 }
 
@@ -65,6 +72,8 @@ impl Code {
 pub struct Diag {
     /// The row of the code table.
     pub code: &'static Code,
+    /// That of the code, where no level says otherwise.
+    pub severity: Severity,
     /// What is wrong here, with the names and numbers of this case.
     pub message: String,
     /// Where; the first place is the primary one.
@@ -78,13 +87,25 @@ pub struct Diag {
 impl Diag {
     /// A diagnostic without a place yet.
     pub fn new(code: impl Into<&'static Code>, message: impl Into<String>) -> Self {
+        let code = code.into();
         Diag {
-            code: code.into(),
+            code,
+            severity: code.severity(),
             message: message.into(),
             spans: Vec::new(),
             hint: None,
             notes: Vec::new(),
         }
+    }
+
+    /// Makes it an error or a warning by a level that was set; `None` where it is allowed.
+    pub fn at_level(mut self, level: Level) -> Option<Self> {
+        self.severity = match level {
+            Level::Allow => return None,
+            Level::Warn => Severity::Warning,
+            Level::Deny => Severity::Error,
+        };
+        Some(self)
     }
 
     /// Adds a place; the first one added is the primary one.
@@ -107,12 +128,12 @@ impl Diag {
 
     /// Error or warning.
     pub fn severity(&self) -> Severity {
-        self.code.severity
+        self.severity
     }
 
     /// True when the run must not write its output.
     pub fn is_error(&self) -> bool {
-        self.code.severity == Severity::Error
+        self.severity == Severity::Error
     }
 }
 
@@ -162,7 +183,7 @@ pub const fn reason(text: &'static str) -> &'static str {
 #[macro_export]
 macro_rules! codes {
     ($(#[$meta:meta])* pub enum $name:ident {
-        $($(#[$vmeta:meta])* $variant:ident = $number:literal, $severity:ident,
+        $($(#[$vmeta:meta])* $variant:ident = $number:literal, $kind:ident,
             $title:literal, $reason:literal, $hint:literal;)*
     }) => {
         $(#[$meta])*
@@ -173,7 +194,7 @@ macro_rules! codes {
             /// The whole table, in the order of declaration.
             pub const ALL: &'static [$crate::Code] = &[$($crate::Code {
                 number: $number,
-                severity: $crate::Severity::$severity,
+                kind: $crate::CodeKind::$kind,
                 title: $title,
                 reason: $crate::reason($reason),
                 hint: $hint,

@@ -28,7 +28,8 @@ pub fn findings(name: &str, text: &Text) -> Vec<Finding> {
             place.map_or(bytes.end, |place| (bytes.start + place.span.end).clamp(from, bytes.end));
         let hint = diag.hint.as_deref().unwrap_or(diag.code.hint).to_string();
         let message = format!("{}\n{hint}", diag.message);
-        Finding { range: text.range(from..to), code: diag.code, message, hint }
+        let range = text.range(from..to);
+        Finding { range, code: diag.code, severity: diag.severity, message, hint }
     });
     found.collect()
 }

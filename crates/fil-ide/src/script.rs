@@ -23,17 +23,12 @@ pub struct Finding {
     pub range: Range,
     /// The code.
     pub code: &'static Code,
+    /// Error or warning.
+    pub severity: Severity,
     /// What is wrong, with its hint.
     pub message: String,
     /// The hint alone.
     pub hint: String,
-}
-
-impl Finding {
-    /// Error or warning.
-    pub fn severity(&self) -> Severity {
-        self.code.severity
-    }
 }
 
 impl Script {
@@ -93,6 +88,7 @@ impl Script {
             Some(Finding {
                 range: range_of(text, place),
                 code: diag.code,
+                severity: diag.severity,
                 message: format!("{}\n{hint}", diag.message),
                 hint,
             })

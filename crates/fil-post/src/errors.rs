@@ -133,7 +133,7 @@ fil_diag::codes! {
             "The skip switch decides where the tool stands behind OPSKIP / OFF. Which axes go first, and which level is the one before a cycle, would be right for one of the two places only.",
             "Put a RAPID to a level that is above both behind OPSKIP / OFF, and one to a known level before OPSKIP / ON.";
         /// A rapid motion from a height that is not known.
-        UnknownLevel = 532, Error, "a rapid motion from a height that is not known",
+        UnknownLevel = 532, Doubt, "a rapid motion from a height that is not known",
             "A text, a call of a subprogram or another zero came before it, and the post can't tell whether the tool stands above the end of the motion or below. Up first could be a plunge, across first could go through the part.",
             "Put GOHOME or RETRCT before it, LOADTL, a text that goes to the machine's reference point (G91 G28 Z0.), or RAPID with a GOTO straight up; before a change of the work offset go up with RAPID.";
         /// A rapid motion at a height that counts from another zero.
@@ -145,11 +145,11 @@ fil_diag::codes! {
             "The control counts the feed in turns of the spindle, and waits for them where it stands.",
             "Put SPINDL / RPM with a direction before it, or give the feed a minute.";
         /// A motion at feed of a rotary axis that may stand anywhere.
-        UnknownTurn = 535, Error, "a motion at feed from where a rotary axis may stand anywhere",
+        UnknownTurn = 535, Doubt, "a motion at feed from where a rotary axis may stand anywhere",
             "A text or a call of a subprogram came before it and may have turned the axis: the motion would turn it back at feed by any angle, and the tip would leave its line.",
             "Put RAPID and a GOTO before it, which turns the axis to where it belongs, or a text that says where it stands (G0 A0.).";
         /// A motion without the length of the tool.
-        LengthTaken = 536, Error, "a motion without the length of the tool",
+        LengthTaken = 536, Doubt, "a motion without the length of the tool",
             "A text has taken the length of the tool off, or changed the tool without calling its length. Z of the CL file counts from the tip, and the control would bring the spindle nose there, or the tip by the length of another tool.",
             "Let the text, or another one behind it, call the length again (G43 H1, on a SINUMERIK D1), or put LOADTL before the motion.";
         /// A rotary axis that is clamped.

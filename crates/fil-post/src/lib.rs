@@ -15,6 +15,7 @@ pub mod dispatch;
 pub mod editing;
 pub mod errors;
 pub mod items;
+pub mod levels;
 pub mod no_effect;
 pub mod noted;
 pub mod operation;

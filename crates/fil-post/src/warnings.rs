@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use fil_diag::{Code, Diag};
+use fil_diag::{Code, Diag, Levels};
 
 use crate::errors::PostCode;
 
@@ -14,6 +14,8 @@ const MOST: usize = 1000;
 pub struct Warnings {
     /// Those not yet taken away.
     pub list: Vec<Diag>,
+    /// Levels that the user has set.
+    pub levels: Levels,
     known: HashSet<(u16, String)>,
 }
 

@@ -88,15 +88,15 @@ fil_diag::codes! {
             "Some bytes mean nothing in the encoding that was asked for.",
             "Name another encoding, or leave it out to have it guessed.";
         /// `;` within free text, and a statement behind it.
-        StatementInText = 122, Error, "statement inside a text",
+        StatementInText = 122, Doubt, "statement inside a text",
             "The text after this word runs to the end of the line, so what looks like a statement behind the semicolon is text and would not run.",
             "Put the statement on a line of its own, or the text between apostrophes.";
         /// Sections after FINI.
-        SectionAfterFini = 123, Error, "section after FINI",
+        SectionAfterFini = 123, Doubt, "section after FINI",
             "FINI ends the file, so the section is not read and its records would go to the post unchanged.",
             "Move FINI to the end of the file, or remove what follows it.";
         /// `-A**B`
-        SignBeforePower = 124, Error, "sign before a power",
+        SignBeforePower = 124, Doubt, "sign before a power",
             "Here a sign binds closer than **, other than in most languages, so -A**2 is the square of A.",
             "Write (-A)**B or -(A**B) to say which is meant.";
         /// CIMFIL/OFF closes an open block.
@@ -119,17 +119,5 @@ fil_diag::codes! {
         SemicolonInText = 155, Warning, "semicolon is part of the text",
             "The text after this word runs to the end of the line, so the semicolon does not end the statement.",
             "Put a statement that follows on a line of its own, or the text between apostrophes.";
-    }
-}
-
-impl SyntaxCode {
-    /// Errors that a user can allow by their code: the text has a tree, but another
-    /// reading of it is as likely as ours.
-    pub const ALLOWABLE: &'static [SyntaxCode] =
-        &[SyntaxCode::StatementInText, SyntaxCode::SectionAfterFini, SyntaxCode::SignBeforePower];
-
-    /// True for the codes of [`SyntaxCode::ALLOWABLE`].
-    pub fn is_allowable(code: &fil_diag::Code) -> bool {
-        Self::ALLOWABLE.iter().any(|own| <&fil_diag::Code>::from(*own) == code)
     }
 }

@@ -12,9 +12,8 @@ mod gap;
 mod pieces;
 mod wrap;
 
-use fil_diag::Diag;
+use fil_diag::{CodeKind, Diag};
 
-use crate::errors::SyntaxCode;
 use crate::parse::{MAX_FILE, parse};
 use crate::print::print;
 use crate::tree::Program;
@@ -46,7 +45,7 @@ pub fn format(file: &str, source: &str) -> Result<String, Vec<Diag>> {
 
 fn read(file: &str, source: &str) -> Result<Program, Vec<Diag>> {
     let parsed = parse(file, source);
-    let refused = |diag: &Diag| diag.is_error() && !SyntaxCode::is_allowable(diag.code);
+    let refused = |diag: &Diag| diag.is_error() && diag.code.kind != CodeKind::Doubt;
     if parsed.diags.iter().any(refused) { Err(parsed.diags) } else { Ok(parsed.program) }
 }
 

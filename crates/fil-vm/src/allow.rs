@@ -5,18 +5,14 @@
 use std::cell::OnceCell;
 use std::collections::HashMap;
 
-use fil_diag::{Code, Diag, Severity};
-use fil_syntax::SyntaxCode;
+use fil_diag::{Code, CodeKind, Diag};
 
 use crate::compile::files::Unit;
-use crate::errors::{CompileCode, LintCode};
+use crate::errors::LintCode;
 
-/// True for a code that can be allowed: every warning, and errors of FIL that can run
-/// but may have been meant otherwise.
+/// True for a code that can be allowed: every warning, and what may not be what is meant.
 pub fn is_allowable(code: &Code) -> bool {
-    code.severity == Severity::Warning
-        || SyntaxCode::is_allowable(code)
-        || CompileCode::ALLOWABLE.iter().any(|own| <&Code>::from(*own) == code)
+    code.kind != CodeKind::Error
 }
 
 /// What is allowed in a load: by its caller for all files, by comments in each.
@@ -143,6 +139,7 @@ fn codes(comment: &str) -> Option<(bool, Vec<String>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::errors::CompileCode;
     use fil_diag::TextSpan;
 
     fn diag(code: impl Into<&'static Code>, line: u32) -> Diag {

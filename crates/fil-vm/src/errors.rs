@@ -84,27 +84,27 @@ fil_diag::codes! {
             "DATA/ declares a table before anything runs, so it holds numbers and texts as they are written.",
             "Write DATA/name,v1,v2,… with constants, or reserve an array with RESERV and set it.";
         /// CIMFIL/OFF closes a block that sends the record on.
-        OpenAroundRecord = 223, Error, "block left open around the record",
+        OpenAroundRecord = 223, Doubt, "block left open around the record",
             "The section sends its record on inside a block without its end: with the end in another line the record would be sent on another way too, and without it records are lost.",
             "Add the missing ENDIF or ENDCAS where the block ends.";
         /// A variable where a word of the same name can be meant.
-        NameOrWord = 224, Error, "variable or word",
+        NameOrWord = 224, Doubt, "variable or word",
             "A statement sets this name, so its value stands here; but a post word takes a word of this name, and that would be lost.",
             "Give the variable a name that is no word of the vocabulary.";
         /// A word that is read as a variable.
-        WordAsValue = 225, Error, "word read as a variable",
+        WordAsValue = 225, Doubt, "word read as a variable",
             "Nothing sets this name, so it is EMPTY here and equals no word of a record.",
             "Write ICODEF(word) for the code of a word.";
         /// A post word that is most likely another statement.
-        OtherStatement = 226, Error, "not a statement of FIL",
+        OtherStatement = 226, Doubt, "not a statement of FIL",
             "The word is misspelt, is of another language, or is one that filpost does not carry out; as a record it would only reach the post.",
             "Compare it with the statements of FIL.";
         /// A macro that only the vendor's post calls.
-        ReservedMacro = 227, Error, "macro that the post does not call",
+        ReservedMacro = 227, Doubt, "macro that the post does not call",
             "A macro of this name edits what the post writes, and nothing calls it here: the settings of the machine do not, or filpost does not know how.",
             "Switch it on in machine.toml, do its work in sections, or remove the macro.";
         /// A section whose key fits no record.
-        NeverMatches = 228, Error, "section that takes no record",
+        NeverMatches = 228, Doubt, "section that takes no record",
             "No record has these words or numbers where the key names them, so the section would never run.",
             "Name a major word, the minor words right behind it, or a type and subtype of CLDATA.";
         /// A name of an added function that can't be taken.
@@ -112,29 +112,14 @@ fil_diag::codes! {
             "A function that the embedding program adds has a name of its own: no built-in function, statement, letter or CL word is called so.",
             "Give the function another name, such as one that begins with the name of your program.";
         /// A name in a list of texts that would be written as it stands.
-        NameInText = 247, Error, "name without a value in a text",
+        NameInText = 247, Doubt, "name without a value in a text",
             "A list of texts joins values; a name that nothing sets has none.",
             "Check its spelling, or put it between apostrophes.";
         /// A letter where its number is hardly meant.
-        LetterAsValue = 251, Error, "letter as a value",
+        LetterAsValue = 251, Doubt, "letter as a value",
             "A to Z are the numbers 1 to 26, the addresses of POSTN and REPEAT; as a value such a number is hardly meant.",
             "Give the value a name of two letters or more. LASTF(X) is the last X written, POSTF(7,6) the X of a point.";
     }
-}
-
-impl CompileCode {
-    /// Errors that a user can allow by their code: the script can be run, but may have
-    /// been meant otherwise.
-    pub const ALLOWABLE: &'static [CompileCode] = &[
-        CompileCode::OpenAroundRecord,
-        CompileCode::NameOrWord,
-        CompileCode::WordAsValue,
-        CompileCode::OtherStatement,
-        CompileCode::ReservedMacro,
-        CompileCode::NeverMatches,
-        CompileCode::LetterAsValue,
-        CompileCode::NameInText,
-    ];
 }
 
 fil_diag::codes! {

@@ -121,7 +121,7 @@ fn code(name: &str) -> Option<String> {
 }
 
 fn code_text(code: &Code) -> String {
-    let kind = match code.severity {
+    let kind = match code.severity() {
         Severity::Warning => "Warning",
         Severity::Error => "Error: nothing is written",
     };

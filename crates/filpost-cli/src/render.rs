@@ -70,7 +70,7 @@ struct Shown {
 /// The diagnostic at its first line, and then its places in other lines.
 fn all_shown(diag: &Diag) -> Vec<Shown> {
     let first = diag.spans.first();
-    let severity = match diag.code.severity {
+    let severity = match diag.severity() {
         Severity::Warning => miette::Severity::Warning,
         Severity::Error => miette::Severity::Error,
     };

@@ -35,7 +35,7 @@ fn rule(code: &Code) -> Value {
         "shortDescription": { "text": code.title },
         "fullDescription": { "text": code.reason },
         "help": { "text": code.hint },
-        "defaultConfiguration": { "level": code.severity.name() },
+        "defaultConfiguration": { "level": code.severity().name() },
     })
 }
 
@@ -45,7 +45,7 @@ fn result(diag: &Diag, rules: &[&Code]) -> Value {
     let mut result = json!({
         "ruleId": diag.code.name(),
         "ruleIndex": rules.iter().position(|code| *code == diag.code),
-        "level": diag.code.severity.name(),
+        "level": diag.severity().name(),
         "message": { "text": format!("{}{hint}", diag.message) },
         "locations": first.into_iter().map(location).collect::<Vec<_>>(),
     });

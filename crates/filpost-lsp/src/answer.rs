@@ -27,7 +27,7 @@ pub(crate) fn read_range(value: &Value) -> Option<Range> {
 }
 
 pub(crate) fn finding(found: &Finding) -> Value {
-    let severity = match found.severity() {
+    let severity = match found.severity {
         Severity::Error => 1,
         Severity::Warning => 2,
     };

@@ -1,7 +1,7 @@
 //! What an editor asks of a text: findings, hover, proposals.
 
-use fil_ide::{Item, Position, Range, Script, Text, cl_file, machine};
-use filpost::{Code, Commons, Included, settings};
+use fil_ide::{Finding, Item, Position, Range, Script, Text, cl_file, machine};
+use filpost::{Commons, Included, settings};
 use serde_json::{Value, json};
 
 use crate::Misuse;
@@ -60,11 +60,11 @@ impl Edited {
             Language::Cl => json!([]),
             Language::Machine => {
                 let found = machine::findings(&self.name, &Text::new(&self.text)).into_iter();
-                found.map(|found| finding(found.range, found.code, &found.message)).collect()
+                found.map(|found| finding(&found)).collect()
             }
             Language::Fil => self.with_script(|script| {
                 let found = script.findings().into_iter();
-                found.map(|found| finding(found.range, found.code, &found.message)).collect()
+                found.map(|found| finding(&found)).collect()
             }),
         }
     }
@@ -120,12 +120,12 @@ impl Edited {
     }
 }
 
-fn finding(range: Range, code: &Code, message: &str) -> Value {
+fn finding(found: &Finding) -> Value {
     json!({
-        "range": places(range),
-        "code": code.name(),
-        "severity": code.severity.name(),
-        "message": message,
+        "range": places(found.range),
+        "code": found.code.name(),
+        "severity": found.severity.name(),
+        "message": found.message,
     })
 }
 

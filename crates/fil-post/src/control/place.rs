@@ -6,7 +6,8 @@ use fil_machine::commons::{EMPTY, Kind, LAST_OUTPUT};
 use fil_machine::locations::{self as loc, RapidSplit};
 
 use super::Control;
-use crate::control_state::{Length, Levels, Meaning, Place, modal};
+use crate::control_state::modal::{self, Source};
+use crate::control_state::{Length, Levels, Meaning, Place};
 use crate::errors::PostCode;
 
 impl Control {
@@ -76,11 +77,11 @@ impl Control {
     /// with the motion. What a position of the machine has ended is called again.
     ///
     /// # Errors
-    /// A text has taken it off, or changed the tool, and nothing calls the length again.
+    /// A text has taken it off, or changed the tool, and nothing calls the length again: at the
+    /// level of the doubt.
     #[cold]
     pub fn ready_length(&mut self) -> Result<()> {
-        let tip = self.tables.tip_output;
-        let is_called = self.waiting.length_offset.is_some() || tip;
+        let is_called = self.waiting.length_offset.is_some() || self.tables.tip_output;
         let message = match self.state.length() {
             Length::OfAnotherTool => "a text has changed the tool, and nothing calls its length",
             _ if is_called => return Ok(()),
@@ -98,7 +99,10 @@ impl Control {
                 }
             },
         };
-        PostCode::LengthTaken.err(message)
+        self.doubt(Source::Author, PostCode::LengthTaken.diag(message))?;
+        // The author's word: the control has the length that the CL file means.
+        self.state.set(modal::LENGTH, Length::Unsaid);
+        Ok(())
     }
 
     /// The last motion was at feed: the tool may stand in the part.

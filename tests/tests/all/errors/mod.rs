@@ -220,6 +220,6 @@ fn posting(cl: &str) -> String {
 
 #[test]
 fn severities_and_letters_agree() {
-    let letter = |code: &Code| if code.severity == Severity::Error { 'E' } else { 'W' };
+    let letter = |code: &Code| if code.severity() == Severity::Error { 'E' } else { 'W' };
     assert!(all_codes().iter().all(|code| code.name().starts_with(letter(code))));
 }

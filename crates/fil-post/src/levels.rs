@@ -1,0 +1,117 @@
+//! Doubts: what may not be what the user means, and at which level it is reported.
+//!
+//! [`DOUBTS`] is the one table of default levels. Every doubt of the post goes through
+//! [`Control::doubt`].
+
+use fil_diag::{Code, CodeKind, Diag, Level, LevelProfile, Levels, Result, Severity};
+
+use crate::control::Control;
+use crate::control_state::modal::Source;
+use crate::errors::PostCode;
+
+/// The default levels of a doubt.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Defaults {
+    /// An author caused it; profile `careful`.
+    pub careful: Level,
+    /// An author caused it; profile `legacy`.
+    pub legacy: Level,
+    /// The post caused it, or what the control does by itself; in both profiles.
+    pub own: Level,
+}
+
+impl Defaults {
+    /// What could lead the tool through the part.
+    const DANGER: Defaults =
+        Defaults { careful: Level::Deny, legacy: Level::Warn, own: Level::Deny };
+
+    /// The default for a cause.
+    pub fn level(self, by: Source, profile: LevelProfile) -> Level {
+        match (by, profile) {
+            (Source::Post | Source::NotCommanded, _) => self.own,
+            (Source::Author, LevelProfile::Careful) => self.careful,
+            (Source::Author, LevelProfile::Legacy) => self.legacy,
+        }
+    }
+}
+
+/// The doubts of the post with their default levels.
+const DOUBTS: &[(PostCode, Defaults)] = &[
+    // A rapid from an unknown height.
+    (PostCode::UnknownLevel, Defaults::DANGER),
+    // A feed move from an unknown rotary position.
+    (PostCode::UnknownTurn, Defaults::DANGER),
+    // A motion without the tool length offset.
+    (PostCode::LengthTaken, Defaults::DANGER),
+];
+
+/// The default levels of a code; `None` for one that is no doubt of the post.
+pub fn defaults(code: &Code) -> Option<Defaults> {
+    let row = DOUBTS.iter().find(|(doubt, _)| <&Code>::from(*doubt) == code);
+    row.map(|(_, defaults)| *defaults)
+}
+
+/// The level of a doubt for a cause.
+fn level_of(levels: &Levels, code: &Code, by: Source) -> Level {
+    match defaults(code) {
+        Some(defaults) => levels.of(code, defaults.level(by, levels.profile())),
+        None => levels.of_code(code),
+    }
+}
+
+impl Control {
+    /// Reports a doubt at its level. After `Ok` the caller goes on: it restates what it can, and
+    /// the message says what it takes for granted.
+    ///
+    /// # Errors
+    /// The doubt, where its level is deny, and one of a code that is always an error.
+    #[cold]
+    pub(crate) fn doubt(&mut self, by: Source, diag: Box<Diag>) -> Result<()> {
+        let level = level_of(&self.warnings.levels, diag.code, by);
+        let mut diag = *diag;
+        if diag.code.kind == CodeKind::Doubt {
+            diag.notes.push(how_to_allow(diag.code));
+        }
+        match diag.at_level(level) {
+            None => Ok(()),
+            Some(diag) if diag.severity == Severity::Error => Err(Box::new(diag)),
+            Some(diag) => {
+                self.warnings.add_made(diag);
+                Ok(())
+            }
+        }
+    }
+}
+
+/// The line that accepts a doubt.
+fn how_to_allow(code: &Code) -> String {
+    let name = code.name();
+    format!(
+        "if it is right as it is: --allow {name}, or [levels] {name} = \"allow\" in machine.toml"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_doubt_has_a_row_and_each_row_is_a_doubt() {
+        let doubts = PostCode::ALL.iter().filter(|code| code.kind == CodeKind::Doubt);
+        let mut doubts: Vec<String> = doubts.map(Code::name).collect();
+        let mut rows: Vec<String> =
+            DOUBTS.iter().map(|(code, _)| <&Code>::from(*code).name()).collect();
+        doubts.sort();
+        rows.sort();
+        assert_eq!(rows, doubts);
+    }
+
+    #[test]
+    fn what_the_post_itself_causes_is_never_milder() {
+        let rank = |level| Level::ALL.iter().position(|other| *other == level);
+        for (_, row) in DOUBTS {
+            assert!(rank(row.legacy) <= rank(row.careful));
+            assert!(rank(row.careful) <= rank(row.own));
+        }
+    }
+}
