@@ -72,11 +72,24 @@ fn header(text: &str) -> Result<Header, String> {
     if says_nothing { Err("the header expects nothing".into()) } else { Ok(header) }
 }
 
-/// Runs a test of the suite; the text of a failure says what was wrong.
+/// A test of the suite, ready to be posted.
+pub struct Test {
+    header: Header,
+    name: String,
+    builder: filpost::Builder,
+    cl: String,
+    /// The folder that scripts may write to; it goes with this value.
+    written: tempfile::TempDir,
+}
+
+/// What messages call the CL file of a test.
+pub const CL_NAME: &str = "part.ncl";
+
+/// Reads a test of the suite.
 ///
 /// # Errors
-/// Anything that is not as the header says.
-pub fn run(path: &Path) -> Result<(), String> {
+/// A header that is wrong, or a file that can't be read.
+pub fn read(path: &Path) -> Result<Test, String> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let read = |path: &Path| files::read_text(path, None).map_err(|error| error.to_string());
     let text = read(path)?;
@@ -95,8 +108,28 @@ pub fn run(path: &Path) -> Result<(), String> {
     builder = builder.includes(includes::beside(&[path.to_path_buf()], None));
     let name = path.display().to_string();
     let cl: String = header.cl.iter().map(|line| format!("{line}\n")).collect();
-    let result = post(builder.fil(&name, &text), &format!("{cl}FINI\n"));
-    judge(&header, &name, result)?;
+    let (builder, cl) = (builder.fil(&name, &text), format!("{cl}FINI\n"));
+    Ok(Test { header, name, builder, cl, written })
+}
+
+impl Test {
+    /// The post of the test, the folder its scripts may write to, which must live as long, and
+    /// the CL text.
+    ///
+    /// # Errors
+    /// FIL that makes no post.
+    pub fn post(self) -> Result<(Program, tempfile::TempDir, String), filpost::Error> {
+        Ok((self.builder.build()?, self.written, self.cl))
+    }
+}
+
+/// Runs a test of the suite; the text of a failure says what was wrong.
+///
+/// # Errors
+/// Anything that is not as the header says.
+pub fn run(path: &Path) -> Result<(), String> {
+    let Test { header, name, builder, cl, written } = read(path)?;
+    judge(&header, &name, post(builder, &cl))?;
     judge_files(&header, written.path())
 }
 
@@ -143,7 +176,7 @@ fn post(builder: filpost::Builder, cl: &str) -> Posted {
     let mut nc = Vec::new();
     let report = post
         .start()
-        .cl_name("part.ncl")
+        .cl_name(CL_NAME)
         .run_seekable(Cursor::new(cl.as_bytes()), &mut nc)
         .map_err(refused)?;
     let warnings = post.warnings().iter().cloned().chain(report.warnings).collect();

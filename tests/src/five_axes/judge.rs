@@ -31,8 +31,8 @@ pub enum Outcome {
     Differs(String, String),
 }
 
-/// The CL file.
-fn text(lines: &[Line]) -> String {
+/// The CL file of lines.
+pub fn text(lines: &[Line]) -> String {
     lines.iter().map(|line| format!("{}\n", line.text)).collect()
 }
 

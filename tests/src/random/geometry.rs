@@ -25,7 +25,7 @@ pub fn times(a: Point, factor: f64) -> Point {
 
 /// Distance of two points.
 pub fn distance(a: Point, b: Point) -> f64 {
-    (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
+    (0..3).map(|axis| (a[axis] - b[axis]) * (a[axis] - b[axis])).sum::<f64>().sqrt()
 }
 
 /// How CL points come to lie on the machine: a turn or mirror, then a shift in mm.
@@ -90,7 +90,7 @@ impl Frame {
 
 /// The matrix that turns by an angle about a machine axis.
 fn turn(about: Axis, angle: f64) -> [Point; 3] {
-    let (sine, cosine) = angle.to_radians().sin_cos();
+    let (sine, cosine) = libm::sincos(angle.to_radians());
     let [first, second, along] = axes(about);
     let mut rows = [[0.0; 3]; 3];
     rows[along][along] = 1.0;

@@ -154,7 +154,7 @@ impl Maker {
             }
             3 => {
                 let exponent = self.dice.between(-5.0, -1.0);
-                let reach = 10f64.powf(exponent);
+                let reach = libm::exp10(exponent);
                 let by = [self.length(-reach, reach), 0.0, self.length(-reach, reach)];
                 let to = add(self.at, by);
                 self.cut(to);
@@ -173,12 +173,12 @@ impl Maker {
         // Of an arc of a few last digits the model can say little.
         let least = if self.dice.once_in(20) { -2.5 } else { -1.2 };
         let exponent = self.dice.between(least, 2.5);
-        let radius = 10f64.powf(exponent) * self.size;
+        let radius = libm::exp10(exponent) * self.size;
         let widest = (60.0 * self.size / radius).min(6.0).to_degrees();
         let sweep = match self.dice.below(8) {
             0 if widest > 300.0 => 360.0,
             1 if widest > 190.0 => 180.0 + self.dice.between(-0.01, 0.01),
-            2 => 10f64.powf(self.dice.between(-4.0, 0.0)).max((3e-6 / radius).to_degrees()),
+            2 => libm::exp10(self.dice.between(-4.0, 0.0)).max((3e-6 / radius).to_degrees()),
             _ => self.dice.between(1f64.min(widest), widest),
         };
         let apart = least_apart(self.size, radius);

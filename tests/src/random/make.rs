@@ -218,11 +218,11 @@ impl Maker {
     fn tiny(&mut self) {
         if self.dice.once_in(2) && self.has(Feature::Arcs) {
             let exponent = self.dice.between(-3.5, -0.5);
-            let radius = 10f64.powf(exponent) * self.size;
+            let radius = libm::exp10(exponent) * self.size;
             return self.arc_of(radius);
         }
         let exponent = self.dice.between(-5.0, -1.0);
-        let reach = 10f64.powf(exponent);
+        let reach = libm::exp10(exponent);
         let by = [self.length(-reach, reach), self.length(-reach, reach), 0.0];
         let to = std::array::from_fn(|axis| self.at[axis] + by[axis]);
         self.cut(to);
@@ -252,7 +252,7 @@ impl Maker {
             0 if widest > 300.0 => 360.0,
             1 if fine && widest > 190.0 => 180.0 + self.dice.between(-0.01, 0.01),
             2 if fine && widest > 300.0 => 360.0 - self.dice.between(1e-4, 1.0),
-            3 if fine => 10f64.powf(self.dice.between(-4.0, 0.0)).max(narrowest),
+            3 if fine => libm::exp10(self.dice.between(-4.0, 0.0)).max(narrowest),
             _ => self.dice.between(narrowest.max(1.0).min(widest), widest),
         };
         let helix = self.dice.once_in(4) && !self.compensated;

@@ -208,7 +208,7 @@ impl Model<'_> {
 pub(super) fn ends(shape: &ArcShape, start: Point) -> (Point, Point) {
     let [first, second, along] = axes(shape.normal);
     let place = |angle: f64| {
-        let (sine, cosine) = angle.to_radians().sin_cos();
+        let (sine, cosine) = libm::sincos(angle.to_radians());
         let mut offset = [0.0; 3];
         offset[first] = shape.radius * cosine;
         offset[second] = shape.radius * sine;

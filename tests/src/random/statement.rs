@@ -106,7 +106,7 @@ impl ArcShape {
     /// Degrees in all. With TIMES an end that lacks less than 0.001 of the start is the
     /// end of the last full turn: so much may rounded points differ.
     pub fn total(&self) -> f64 {
-        let lacks = 2.0 * self.radius * (self.sweep / 2.0).to_radians().sin();
+        let lacks = 2.0 * self.radius * libm::sin((self.sweep / 2.0).to_radians());
         let closes = self.sweep > 180.0 && lacks < 0.001;
         if self.sweep == 360.0 {
             360.0 * f64::from(self.times.max(1))
