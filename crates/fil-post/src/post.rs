@@ -9,6 +9,7 @@ use fil_machine::modes::{FeedMode, Unit};
 
 use crate::cause::Cause;
 use crate::control::Control;
+use crate::control::needs::{Act, Part};
 use crate::dispatch::{self, Dispatcher};
 use crate::errors::PostCode;
 use crate::items::Items;
@@ -51,6 +52,16 @@ impl Post {
             path: Path::default(),
             dispatcher: Dispatcher::default(),
         })
+    }
+
+    /// Refuses an operation whose needs the control or the CL file does not meet.
+    ///
+    /// # Errors
+    /// As [`Control::require`].
+    pub fn require(&self, act: Act) -> Result<()> {
+        let part =
+            Part { in_cycle: self.path.cycle.is_some(), in_thread: self.path.thread.is_some() };
+        self.control.require_within(act, part)
     }
 
     /// Keeps the causes of blocks and words from now on.

@@ -9,6 +9,7 @@ use fil_machine::locations::ControlFamily;
 use super::left_out::{Edit, Maker, Word};
 use super::{Control, sinumerik, speed_of_others, texts};
 use crate::cause::Cause;
+use crate::control::needs::Act;
 use crate::control_state::{TextWords, text, text_words};
 use crate::errors::PostCode;
 
@@ -36,7 +37,7 @@ impl Control {
         if self.block.has_numbers() {
             self.require_unit()?;
         }
-        self.refuse_after_end()?;
+        self.require(Act::Block)?;
         if family == ControlFamily::Klartext {
             return super::klartext::phrase::write(self);
         }

@@ -11,7 +11,8 @@ use fil_machine::locations::{self as loc, ControlFamily, RotaryOutput, RotaryZer
 
 use super::Control;
 use super::word_address::motion::Motion;
-use crate::control_state::{Place, modal};
+use crate::control::needs::Act;
+use crate::control_state::Place;
 use crate::errors::PostCode;
 
 /// The first rotary axis by number.
@@ -66,14 +67,8 @@ pub(crate) fn refuse_clamped(control: &Control, changed: AxisSet) -> Result<()> 
         () if tables.is_unrolled() => AxisSet::ROTARY.or(AxisSet::of(1)),
         () => AxisSet::ROTARY,
     };
-    let turns = changed.and(turning).numbers().next();
-    let Some(number) =
-        turns.filter(|_| control.state.may_be(modal::AXIS_CLAMP, true) && !tables.clamps)
-    else {
-        return Ok(());
-    };
-    let letter = tables.axis(number.max(FIRST)).letter;
-    PostCode::TurnsClamped.err(format!("{letter} would turn, and the rotary axes are clamped"))
+    let turns = !changed.and(turning).is_empty();
+    if turns && !tables.clamps { control.require(Act::ClampedMove) } else { Ok(()) }
 }
 
 /// Releases the rotary axes before they turn, where the machine clamps them in tilted frames;

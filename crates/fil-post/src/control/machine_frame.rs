@@ -10,8 +10,7 @@ use fil_machine::locations::{self as loc, ControlFamily, HomeFrame};
 use super::word_address::motion::Motion;
 use super::{Control, family, full_turn, klartext};
 use crate::cause::Cause;
-use crate::control_state::{Compensation, modal};
-use crate::errors::PostCode;
+use crate::control::needs::Act;
 
 /// The axes of the block go where they say in the frame of the machine.
 const MACHINE: FunctionCode = FunctionCode::whole(53);
@@ -41,9 +40,7 @@ pub enum Before {
 /// Cutter compensation; a value that does not fit; on a SINUMERIK a cutting edge that is not
 /// known, and would be lost.
 pub fn go(control: &mut Control, motion: &Motion, before: Before, cause: Cause) -> Result<()> {
-    if !matches!(control.state.get(modal::CUTTER_COMP), Some(Compensation::Off) | None) {
-        return PostCode::CompensationOn.err("at a motion to a position of the machine");
-    }
+    control.require(Act::MachineFrame)?;
     let present = control.tables.present();
     if motion.axes.and(present).is_empty() {
         return Ok(());

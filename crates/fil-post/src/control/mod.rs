@@ -18,6 +18,7 @@ mod left_out;
 pub mod length_plane;
 pub(crate) mod line;
 pub mod machine_frame;
+pub mod needs;
 mod own_offsets;
 pub(crate) mod place;
 pub mod program;

@@ -13,7 +13,8 @@ use fil_machine::{Commons, FunctionCode, user_blocks};
 
 use super::Control;
 use crate::cause::Cause;
-use crate::control_state::{Compensation, ControlState, Distance, Source, modal};
+use crate::control::needs::Act;
+use crate::control_state::{ControlState, Distance, Source, modal};
 use crate::errors::PostCode;
 
 /// Most characters of a leader.
@@ -152,8 +153,6 @@ fn write_start(control: &mut Control) -> Result<()> {
 pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
     control.begin()?;
     super::word_address::cycle::cancel(control)?;
-    let is_asked = control.compensation_asked() != Compensation::Off;
-    let may_compensate = control.state.may_compensate() || is_asked;
     let may_drill = control.state.was_in_cycle();
     control.skip_blocks(false)?;
     control.flush_waiting()?;
@@ -163,13 +162,7 @@ pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
     for block in user_blocks::END.read(&control.commons) {
         control.because(Cause::default(), |control| control.write_text(&block, true))?;
     }
-    if control.state.compensates() {
-        return PostCode::CompensationOn.err("at the end of the program");
-    }
-    if may_compensate && control.state.get(modal::CUTTER_COMP).is_none() {
-        return PostCode::CompensationOn
-            .err("at the end of the program, with the blocks of OPSKIP or without them");
-    }
+    control.require(Act::ProgramEnd)?;
     if let Some(code) = code {
         control.m(code);
     }

@@ -6,8 +6,7 @@ use fil_machine::locations as loc;
 use fil_machine::{Kind, stored};
 
 use super::Control;
-use crate::control_state::Compensation;
-use crate::errors::PostCode;
+use crate::control::needs::Act;
 
 /// INTCOM: the machine that a program is for, from its first block to its last.
 const MACHINE: [u16; 15] = [
@@ -70,13 +69,9 @@ impl Control {
             let diag = MachineCode::SettingValue.diag(message);
             return Err(Box::new(diag.hint("set it in machine.toml or with --set")));
         }
-        let compensates = self.asked != Compensation::Off || self.state.compensates();
-        if kind == Kind::Dbl && SCALES.contains(&number) && compensates {
-            return PostCode::CompensationOn.err(format!(
-                "{} changes the path that the control compensates",
-                stored::title(kind, location)
-            ));
+        match kind == Kind::Dbl && SCALES.contains(&number) {
+            true => self.require(Act::Scale),
+            false => Ok(()),
         }
-        Ok(())
     }
 }

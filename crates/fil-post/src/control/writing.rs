@@ -15,6 +15,7 @@ use super::{
     speed_of_others, texts,
 };
 use crate::cause::Cause;
+use crate::control::needs::Act;
 use crate::control_state::{Place, Source, modal, text};
 use crate::errors::PostCode;
 
@@ -64,7 +65,7 @@ impl Control {
         if self.unit.is_none() && self.block.has_numbers() {
             self.require_unit()?;
         }
-        self.refuse_after_end()?;
+        self.require(Act::Block)?;
         if self.tables.style.divides && self.is_crowded() {
             return self.write_apart();
         }
@@ -84,7 +85,7 @@ impl Control {
         if words.iter().any(|(letter, ..)| !matches!(*letter, G | M)) {
             self.require_unit()?;
         }
-        self.refuse_after_end()?;
+        self.require(Act::Block)?;
         modes::leave_plane_of_its_own(self)?;
         let plain = plain(words);
         length_plane::before_others(self, &plain)?;
@@ -161,7 +162,7 @@ impl Control {
         if texts::begins_program(text) {
             self.state.program_begins();
         }
-        self.refuse_after_end()?;
+        self.require(Act::Block)?;
         modes::leave_plane_of_its_own(self)?;
         length_plane::before_text(self, text)?;
         texts::check(text)?;
@@ -327,7 +328,7 @@ impl Control {
     /// As [`Control::write_text`].
     pub fn write_comment(&mut self, text: &str, numbered: bool) -> Result<()> {
         self.begin()?;
-        self.refuse_after_end()?;
+        self.require(Act::Block)?;
         texts::check(text)?;
         self.put_line(text, numbered).map(|_| ())
     }
@@ -371,15 +372,6 @@ impl Control {
         if !text.is_ascii() && self.tables.style.page.is_utf8() {
             self.warnings.add(PostCode::TapeText, format!("`{text}`"));
         }
-    }
-
-    /// Refuses a block after M2 or M30: the control would never read it.
-    #[inline]
-    pub(super) fn refuse_after_end(&self) -> Result<()> {
-        if self.state.may_be(modal::PROGRAM_END, true) {
-            return PostCode::AfterEnd.err("the program has ended before this block");
-        }
-        Ok(())
     }
 
     /// Writes the start of the program if it is still due. Whoever asks for what

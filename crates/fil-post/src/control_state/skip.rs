@@ -53,11 +53,6 @@ impl ControlState {
         }
     }
 
-    /// Cutter compensation is on, or is where the blocks that may be skipped are left out.
-    pub fn may_compensate(&self) -> bool {
-        self.compensates() || self.before_skip.as_ref().is_some_and(|then| then.0.compensates())
-    }
-
     /// A canned cycle is in force where the blocks that may be skipped are left out.
     pub fn was_in_cycle(&self) -> bool {
         self.before_skip.as_ref().is_some_and(|then| then.0.is(CYCLE, true))

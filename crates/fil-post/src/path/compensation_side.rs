@@ -5,6 +5,7 @@ use fil_machine::modes::Plane;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::{Transformation, rapid_lean};
+use crate::control::needs::Act;
 use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::post::Post;
@@ -110,12 +111,11 @@ fn faces(turn: &Matrix3<f64>, plane: Plane) -> bool {
 ///
 /// # Errors
 /// Compensation is on, and the new transformation turns, mirrors or stretches otherwise.
-pub fn refuse_a_turn(post: &Post, trans: Option<&Transformation>, word: &str) -> Result<()> {
+pub fn refuse_a_turn(post: &Post, trans: Option<&Transformation>) -> Result<()> {
     let linear =
         |one: Option<&Transformation>| one.map_or_else(Matrix3::identity, Transformation::linear);
-    let same = linear(trans) == linear(post.path.transformation.as_ref());
-    if same || !post.control.is_compensated() {
-        return Ok(());
+    match linear(trans) == linear(post.path.transformation.as_ref()) {
+        true => Ok(()),
+        false => post.control.require(Act::Transformation),
     }
-    PostCode::CompensationOn.err(format!("at {word}, which turns the path"))
 }

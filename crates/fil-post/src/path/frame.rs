@@ -14,6 +14,7 @@ use fil_machine::locations as loc;
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::{height, machine_position, rotary, tip_control};
+use crate::control::needs::Act;
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{Control, Function, family, full_turn};
 use crate::control_state::{Meaning, modal};
@@ -118,15 +119,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFra
     let control = &mut post.control;
     control.begin()?;
     control.require_unit()?;
-    if control.is_compensated() {
-        return PostCode::CompensationOn.err("where a tilted frame begins");
-    }
-    if control.state.may_be_skipped() {
-        return PostCode::SkippedPart.err(
-            "a tilted frame would begin or end on one side of OPSKIP, and the motions of the \
-             other would count in it",
-        );
-    }
+    control.require(Act::WorkPlaneOn)?;
     family::cancel_cycle(control)?;
     control.flush_function(Function::WorkOffset)?;
     let stands = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
@@ -365,9 +358,7 @@ pub fn end(control: &mut Control) -> Result<()> {
     if !control.may_be_tilted() {
         return Ok(());
     }
-    if control.state.may_be_skipped() {
-        return PostCode::SkippedPart.err("a tilted frame would end on one side of OPSKIP");
-    }
+    control.require(Act::WorkPlaneOff)?;
     family::cancel_cycle(control)?;
     let known = knows_rotary(control);
     let slides = height::slides_in_frame(control);

@@ -12,6 +12,7 @@ use fil_machine::modes::FeedMode;
 
 use super::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use super::{Since, expand, frame, mill_turn, rapid, rapid_turn, rotary, scaled_lead, tip_hole};
+use crate::control::needs::Act;
 use crate::control::place::refuse_unknown;
 use crate::control::sinumerik::live_tap;
 use crate::control::skip::refuse_level;
@@ -49,10 +50,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     if !post.control.state.is(modal::CYCLE, true) {
         cycle.in_force = None;
     }
-    if post.control.is_compensated() {
-        return PostCode::InCycle
-            .err("a hole in cutter compensation; CUTCOM/OFF must come before it");
-    }
+    post.control.require(Act::Hole)?;
     post.control.flush_waiting()?;
     if cycle.kind != CycleKind::Tap && spindle::stands(&post.control) {
         let message = "CYCLE: the spindle stands".to_string();

@@ -7,6 +7,7 @@ use nalgebra::{Matrix3x4, Vector3};
 
 use super::{Transformation, rapid, rotary, tip};
 use crate::control::family;
+use crate::control::needs::Act;
 use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
 use crate::post::Post;
@@ -24,9 +25,7 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
              of the points only",
         );
     }
-    if post.control.is_compensated() {
-        return PostCode::CompensationOn.err("where ROTABL turns a table");
-    }
+    post.control.require(Act::Table)?;
     let chain = post.control.tables.chain();
     let stands = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
     let mut angles = stands;

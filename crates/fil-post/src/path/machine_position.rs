@@ -5,9 +5,9 @@ use fil_machine::axes::{AxisSet, Position};
 
 use super::{frame, rapid, rapid_lean, tip_control};
 use crate::control::machine_frame::{self, Before};
+use crate::control::needs::Act;
 use crate::control::word_address::cycle;
 use crate::control::word_address::motion::Motion;
-use crate::errors::PostCode;
 use crate::post::Post;
 
 /// Moves X, Y and Z to these positions, Z first where it goes up. Where the CL file stands
@@ -16,9 +16,7 @@ use crate::post::Post;
 /// # Errors
 /// Cutter compensation that is on, and all that a rapid motion refuses.
 pub fn carry_out(post: &mut Post, to: [Option<f64>; 3]) -> Result<()> {
-    if post.control.is_compensated() {
-        return PostCode::CompensationOn.err("at a motion to a position of the machine");
-    }
+    post.control.require(Act::MachinePosition)?;
     let was_in_part = post.path.point.is_some();
     post.path.interrupt();
     cycle::cancel(&mut post.control)?;

@@ -21,6 +21,7 @@ use nalgebra::{Point3, Vector3};
 use super::cycle::{CycleFeed, CycleKind};
 use super::{feed_rules, functions_of_others, rotary, thread};
 use crate::control::Control;
+use crate::control::needs::Act;
 use crate::control::sinumerik::{reader, transformation};
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::{modes, spindle};
@@ -76,13 +77,7 @@ pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
         return Ok(());
     }
     thread::end(post)?;
-    if post.path.cycle.is_some() {
-        return PostCode::InCycle.err("MODE; CYCLE/OFF must come before it");
-    }
-    if post.control.is_compensated() {
-        return PostCode::CompensationOn.err("at MODE; CUTCOM/OFF must come before it");
-    }
-    refuse_skipped(&post.control)?;
+    post.require(Act::Mode)?;
     leave(post)?;
     let control = &mut post.control;
     control.begin()?;
@@ -160,16 +155,6 @@ fn within_axes(post: &mut Post, feed: Feed, to: &Position) -> Feed {
     let way = [0, 1, 2].map(|number| post.control.stands(number).map(|at| to[number] - at));
     let length = way.iter().try_fold(0.0, |sum, way| way.map(|way| sum + way * way));
     feed_rules::within_axes(post, feed, way, length.map(f64::sqrt))
-}
-
-fn refuse_skipped(control: &Control) -> Result<()> {
-    if control.state.may_be_skipped() {
-        return PostCode::SkippedPart.err(
-            "the mode of the machine would change on one side of OPSKIP, and the motions of the \
-             other would be read in it",
-        );
-    }
-    Ok(())
 }
 
 /// The positions of the axes for a live tool: C rounded as the tape has it, so that X, Y

@@ -17,6 +17,7 @@ use nalgebra::{Point3, Vector3};
 use super::travel::Way;
 use super::turning::{apart, on_the_way, spelled};
 use super::{linearization, rapid, rotary};
+use crate::control::needs::{self, Act};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::spindle;
 use crate::control::{Control, family};
@@ -326,8 +327,7 @@ fn ways_of(commons: &Commons) -> Ways {
 
 /// A feed of the settings or of the macro: absent is the present one, 0 is rapid.
 fn feed_of(post: &Post, value: Option<f64>) -> Result<Option<Feed>> {
-    let present =
-        post.path.feed.ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"))?;
+    let present = needs::feed(post.path.feed)?;
     Ok(match value {
         None => Some(present),
         Some(value) if value > 0.0 => Some(Feed { value, mode: FeedMode::PerMinute, ..present }),
@@ -343,9 +343,7 @@ fn out_and_back(
     plan: &Plan,
     next_axis: Vector3<f64>,
 ) -> Result<()> {
-    if post.control.is_compensated() {
-        return PostCode::CompensationOn.err("where a rotary axis is at its limit");
-    }
+    post.control.require(Act::Reposition)?;
     let commons = &post.control.commons;
     if commons.read(loc::REPOS_FEED_WARNING) {
         let (from, to) = (spelled(change.from), spelled(change.to));

@@ -10,6 +10,7 @@ use super::reposition::{self, Change, Plan, start_again, stop_around, straight};
 use super::turning::{apart, spelled};
 use super::{Since, linearization, rapid, rotary};
 use crate::cause::Cause;
+use crate::control::needs::Act;
 use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
 use crate::operation::Target;
@@ -83,9 +84,7 @@ fn out_and_to(
     by_macro: bool,
     cause: Cause,
 ) -> Result<()> {
-    if post.control.is_compensated() {
-        return PostCode::CompensationOn.err("where a rotary axis is at its limit");
-    }
+    post.control.require(Act::Reposition)?;
     let (from, _) = rotary::transformed(post, start);
     let (to, next_axis) = rotary::transformed(post, target);
     let plan = Plan::of(post, from, change, by_macro)?;

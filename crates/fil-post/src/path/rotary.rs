@@ -8,6 +8,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::{Since, frame, mill_turn, tip_control, turned_apart};
 use crate::control::Control;
+use crate::control::needs::Act;
 use crate::control::skip::refuse_level;
 use crate::control_state::Place;
 use crate::errors::PostCode;
@@ -170,7 +171,7 @@ pub(super) fn refuse_compensated(post: &Post, before: Option<[f64; 2]>) -> Resul
     if tables.mills() || !is_first && turned(before, post.path.rotary).is_none() {
         return Ok(());
     }
-    PostCode::CompensationOn.err("where the machine turns; CUTCOM/OFF must come before it")
+    post.control.require(Act::RotaryMove)
 }
 
 /// True where a motion begins where nobody knows the axes to stand, as behind a tool change or

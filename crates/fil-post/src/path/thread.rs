@@ -13,6 +13,7 @@ use nalgebra::Point3;
 pub use super::thread_shape::{Shape, least_depth};
 use super::{carry_out as carry, rotary, scaled_lead};
 use crate::control::family;
+use crate::control::needs::Act;
 use crate::control::word_address::osp_thread;
 use crate::control::word_address::spindle::{self, counted};
 use crate::control_state::{Place, modal};
@@ -74,7 +75,7 @@ pub struct Awaited {
 #[cold]
 pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
     check_speed(post)?;
-    refuse_compensated(post)?;
+    post.require(Act::Thread)?;
     refuse_other_turns(post)?;
     let Some(mut awaited) = post.path.awaited_thread.take() else {
         if stands_at(post).is_none() {
@@ -220,24 +221,12 @@ fn cut(post: &mut Post, thread: &Thread, shape: &Shape) -> Result<()> {
 
 /// What must hold while a thread is cut.
 fn check_machine(post: &mut Post) -> Result<()> {
-    if post.path.cycle.is_some() {
-        return PostCode::InCycle.err("a thread in an active cycle; CYCLE/OFF must come before it");
-    }
-    refuse_compensated(post)?;
+    post.require(Act::Thread)?;
     if post.path.transformation.as_ref().is_some_and(|trans| !trans.is_rigid()) {
         return PostCode::Thread.err("TRANS changes the lengths of the thread");
     }
     scaled_lead::refuse(&post.control, &AXES, PostCode::Thread)?;
     check_speed(post)
-}
-
-/// Refuses a thread under compensation, in which controls take no pass.
-fn refuse_compensated(post: &Post) -> Result<()> {
-    if post.control.is_compensated() {
-        return PostCode::Thread
-            .err("a thread in cutter compensation; CUTCOM/OFF must come before it");
-    }
-    Ok(())
 }
 
 /// What the lead gains in each turn of a pass to a point, as the machine counts it, which

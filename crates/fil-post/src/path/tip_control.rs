@@ -16,6 +16,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::turning::spelled;
 use super::{frame, frame_end, rapid, rotary, tip, turned_apart};
+use crate::control::needs::Act;
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{Control, Function};
 use crate::control::{family, machine_frame, vectors};
@@ -111,9 +112,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     let control = &mut post.control;
     control.begin()?;
     control.require_unit()?;
-    if control.is_compensated() {
-        return PostCode::CompensationOn.err("where tool-tip control begins");
-    }
+    control.require(Act::TcpOn)?;
     family::cancel_cycle(control)?;
     let in_doubt = control.state.get(modal::TCP).is_none();
     let length_is_called = std::mem::take(&mut control.tip.length_is_called);

@@ -11,6 +11,7 @@ use fil_machine::modes::FeedMode;
 use fil_machine::rotary_feed_rules::RotaryFeedRules;
 
 use crate::control::Control;
+use crate::control::needs;
 use crate::control::word_address::dwell::known_speed;
 use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
@@ -50,9 +51,7 @@ impl<'a> TurningFeed<'a> {
     pub(super) fn of(post: &'a Post) -> Result<Self> {
         let tables = &post.control.tables;
         let rules = &tables.rotary_feed;
-        let given = post.path.feed;
-        let given =
-            given.ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"))?;
+        let given = needs::feed(post.path.feed)?;
         let form = if post.path.inverse_time { RotaryFeed::InverseTime } else { rules.form };
         let rate = match given.mode {
             FeedMode::PerRevolution if form != RotaryFeed::AsFedratSays => {

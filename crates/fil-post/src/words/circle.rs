@@ -7,6 +7,7 @@ use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 use nalgebra::{Point3, Vector3};
 
+use crate::control::needs::Act;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::Arc;
@@ -30,12 +31,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if post.path.arc.is_some() {
         return PostCode::ArcEnd.err("a second CIRCLE came before the GOTO");
     }
-    if post.path.thread.is_some() {
-        return PostCode::Thread.err("CIRCLE in a thread; THREAD/OFF must come before it");
-    }
-    if post.path.cycle.is_some() {
-        return PostCode::InCycle.err("CIRCLE in an active cycle; CYCLE/OFF must come before it");
-    }
+    post.require(Act::Arc)?;
     let circle = items.circle().ok_or_else(|| items.error("center and axis are needed"))?;
     let axis = Vector3::from(circle.axis);
     if axis.norm() < NO_AXIS {

@@ -5,9 +5,9 @@ use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 use fil_machine::modes::Plane;
 
+use crate::control::needs::Act;
 use crate::control::word_address::compensation::usual_plane;
 use crate::control_state::Compensation;
-use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{CutterCompensation, Operation};
 use crate::path::{carry_out, compensation_side};
@@ -39,8 +39,8 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if side == Compensation::Off && offset.is_some() {
         return Err(items.error("OFF takes no offset"));
     }
-    if side != Compensation::Off && post.path.cycle.is_some() {
-        return PostCode::InCycle.err("CUTCOM in an active cycle; CYCLE/OFF must come before it");
+    if side != Compensation::Off {
+        post.require(Act::Compensation)?;
     }
     // A FIL section that carries CUTCOM out says the side on the tape.
     if side != Compensation::Off && post.control.tape.cause.stack == 0 {

@@ -12,6 +12,7 @@ use fil_machine::Kind;
 use fil_machine::locations::{self as loc, InputKind, InputOrigin, InputTracut};
 use nalgebra::Matrix3x4;
 
+use crate::control::needs::Act;
 use crate::control::sinumerik::translation;
 use crate::errors::PostCode;
 use crate::items::Items;
@@ -35,7 +36,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
         items.deny_rest()?;
         post.path.is_shifted = false;
-        turn(post, None, "TRANS")?;
+        turn(post, None)?;
         return translate(post, [0.0; 3]);
     }
     let option = items.couplet(w::OPTION)?;
@@ -65,7 +66,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         matrix: Matrix3x4::from_row_slice(&numbers),
         turns_axis: option.is_none() && kind != InputKind::MatrixOnPoints,
     };
-    turn(post, Some(trans), "TRANS")
+    turn(post, Some(trans))
 }
 
 /// Three numbers and twelve: whether the later TRANS takes the place of the earlier one, or adds
@@ -75,8 +76,8 @@ fn both(items: &Items) -> Box<Diag> {
 }
 
 /// Takes another transformation.
-fn turn(post: &mut Post, trans: Option<Transformation>, word: &str) -> Result<()> {
-    compensation_side::refuse_a_turn(post, trans.as_ref(), word)?;
+fn turn(post: &mut Post, trans: Option<Transformation>) -> Result<()> {
+    compensation_side::refuse_a_turn(post, trans.as_ref())?;
     post.path.transformation = trans;
     post.path.leave_point();
     Ok(())
@@ -133,7 +134,7 @@ pub fn tracut(post: &mut Post, items: &mut Items) -> Result<bool> {
         return Err(items.error("TRANS or a named frame moves the points already"));
     }
     if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
-        turn(post, None, "TRACUT")?;
+        turn(post, None)?;
         post.path.has_tracut = false;
         return Ok(true);
     }
@@ -144,7 +145,7 @@ pub fn tracut(post: &mut Post, items: &mut Items) -> Result<bool> {
         );
     }
     let matrix = Matrix3x4::from_row_slice(&numbers);
-    turn(post, Some(Transformation { matrix, turns_axis: true }), "TRACUT")?;
+    turn(post, Some(Transformation { matrix, turns_axis: true }))?;
     post.path.has_tracut = true;
     Ok(true)
 }
@@ -165,7 +166,7 @@ pub(super) fn csys(post: &mut Post, word: &str, moved: Option<Transformation>) -
             .err(format!("{word}: TRANS, ORIGIN, TRACUT or ROTABL moves the points already"));
     }
     let has_csys = moved.is_some();
-    turn(post, moved, word)?;
+    turn(post, moved)?;
     post.path.has_csys = has_csys;
     Ok(())
 }
@@ -180,10 +181,7 @@ fn refuse_on_arc(post: &Post, word: &str) -> Result<()> {
 
 fn translate(post: &mut Post, by: [f64; 3]) -> Result<()> {
     if translation::is_of_control(&post.control) {
-        if post.control.state.may_be_skipped() {
-            return PostCode::SkippedPart
-                .err("a shift of the control's zero, from which the motions behind would count");
-        }
+        post.control.require(Act::OriginShift)?;
         post.path.interrupt();
         translation::write(&mut post.control, by)?;
     }

@@ -12,9 +12,9 @@ use super::line::{self, Line};
 use super::phrase::Head;
 use super::repeat;
 use crate::control::family::refuse;
+use crate::control::needs::{self, Act};
 use crate::control::word_address::arc::{self, PlaneArc};
 use crate::control::word_address::dwell::known_speed;
-use crate::control::word_address::modes;
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::word_address::repeat as words_of_repeat;
 use crate::control::{Control, Function};
@@ -170,7 +170,7 @@ fn turn(control: &mut Control, arc: &PlaneArc, helix: Helix, feed: Option<&Feed>
 /// No unit; cutter compensation that a text may have ended.
 pub fn ready(control: &mut Control) -> Result<()> {
     control.begin()?;
-    modes::refuse_tool_by_switch(control)?;
+    control.require(Act::Motion)?;
     if !control.ended_repeats.is_empty() {
         words_of_repeat::doubt_ended(control);
     }
@@ -186,7 +186,7 @@ pub fn ready(control: &mut Control) -> Result<()> {
 
 /// Adds F where the control does not have it.
 fn feed_word(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
-    let feed = *feed.ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"))?;
+    let feed = needs::feed(feed.copied())?;
     let value = match feed.mode {
         FeedMode::PerMinute => spelled(control, feed.value),
         FeedMode::PerRevolution if control.is_metric() => feed.value,
@@ -256,7 +256,7 @@ pub(super) fn write(control: &mut Control, turning: AxisSet) -> Result<()> {
         if control.repeats.is_empty() || of_machine { Vec::new() } else { repeat::add(control)? };
     if control.block.is_empty() {
         // A helix may have no word that the block counts.
-        control.refuse_after_end()?;
+        control.require(Act::Block)?;
         super::phrase::write(control)?;
     } else {
         control.write_block()?;

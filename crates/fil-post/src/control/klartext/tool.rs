@@ -7,9 +7,9 @@ use fil_machine::rounding::Rounding;
 
 use super::line::{self, Line};
 use crate::block::named;
+use crate::control::needs::Act;
 use crate::control::{Control, own_offsets};
 use crate::control_state::{Rotation, modal};
-use crate::errors::PostCode;
 use crate::noted::TEXT;
 use crate::operation::ToolChange;
 
@@ -81,9 +81,7 @@ pub fn select(control: &mut Control, tool: i64) -> Result<()> {
 /// # Errors
 /// Cutter compensation; a speed that does not fit.
 pub fn speed(control: &mut Control, value: f64) -> Result<()> {
-    if control.is_compensated() {
-        return PostCode::CompensationOn.err("at TOOL CALL, which a change of the speed needs");
-    }
+    control.require(Act::ToolCall)?;
     let s = fil_machine::letters::S;
     control.require_letter(s)?;
     let format = control.tables.addresses.format(s).copied().unwrap_or_default();

@@ -13,6 +13,7 @@ use super::{function, refuse_auxiliary};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family::refuse;
+use crate::control::needs::Act;
 
 /// Letters of axes.
 const AXES: &[u8] = b"ABCUVWXYZ";
@@ -31,7 +32,7 @@ pub fn write(control: &mut Control, words: &[(Letter, f64, Cause)]) -> Result<()
     let rapid = moves_in_rapid(words)?;
     let before = control.before_others()?;
     control.require_unit()?;
-    control.refuse_after_end()?;
+    control.require(Act::Block)?;
     for &(letter, value, cause) in words.iter().filter(|(letter, ..)| *letter != G) {
         match letter {
             M => {

@@ -29,6 +29,7 @@ use super::line::Line;
 use super::word_address::dwell;
 use super::{Control, own_offsets, word_address};
 use crate::control::family::refuse;
+use crate::control::needs::Act;
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::operation::{CutterCompensation, Dwell, Operation};
@@ -191,7 +192,7 @@ fn feed_before(control: &mut Control, feed: &crate::operation::Feed) -> Result<(
 /// Puts a statement on the tape in a block of its own, with the cause of the record.
 fn put_text(control: &mut Control, text: &str) -> Result<()> {
     control.begin()?;
-    control.refuse_after_end()?;
+    control.require(Act::Block)?;
     let line = Line::of_text(text, control.block.cause);
     control.tape.items(&line.text, &line.items, true, &control.tables, &mut control.commons)
 }

@@ -8,6 +8,7 @@ use fil_machine::rounding::Rounding;
 use fil_machine::setting::CodeAt;
 
 use super::cycle;
+use crate::control::needs::Act;
 use crate::control::{Control, Function};
 use crate::control_state::modal;
 use crate::errors::PostCode;
@@ -59,10 +60,7 @@ pub(in crate::control) fn write_code(control: &mut Control, code: FunctionCode) 
 pub(in crate::control) fn prepare(control: &mut Control) -> Result<()> {
     control.begin()?;
     cycle::cancel(control)?;
-    if control.is_compensated() {
-        return PostCode::CompensationOn
-            .err("at a change of the work offset; CUTCOM/OFF must come before it");
-    }
+    control.require(Act::WorkOffset)?;
     control.flush_function(Function::WorkOffset)
 }
 

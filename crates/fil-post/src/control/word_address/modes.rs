@@ -7,6 +7,7 @@ use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::{Plane, Unit};
 
 use super::compensation;
+use crate::control::needs::Act;
 use crate::control::program::{plane_code, unit_code};
 use crate::control::{Control, Function, length_plane, sinumerik};
 use crate::control_state::{Compensation, Distance, modal};
@@ -31,23 +32,9 @@ pub fn require(control: &mut Control, unit: Unit) -> Result<()> {
     if stands { Ok(()) } else { say_again(control, unit) }
 }
 
-/// Refuses a motion of a tool, or with a length, that the skip switch decides.
-///
-/// # Errors
-/// It does.
-pub fn refuse_tool_by_switch(control: &Control) -> Result<()> {
-    match control.state.tools_by_block_delete() {
-        Some(_) => PostCode::SkippedPart.err(
-            "the tool or its offset was changed in blocks that may be skipped, and with them skipped \
-             this motion would be made with the one before it",
-        ),
-        None => Ok(()),
-    }
-}
-
 #[cold]
 fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
-    refuse_tool_by_switch(control)?;
+    control.require(Act::Motion)?;
     let waiting = control.block.take();
     let mut missing = Vec::new();
     let sinumerik = control.tables.family == ControlFamily::Sinumerik;
@@ -156,8 +143,8 @@ fn absolute_code(control: &Control) -> Option<FunctionCode> {
 /// The machine has no code for the plane; cutter compensation that is on.
 pub fn plane(control: &mut Control, plane: Plane) -> Result<()> {
     if !control.state.is(modal::PLANE, plane) {
-        if control.state.get(modal::PLANE).is_some() && control.is_compensated() {
-            return PostCode::CompensationOn.err("at a change of the plane");
+        if control.state.get(modal::PLANE).is_some() {
+            control.require(Act::Plane)?;
         }
         let code = control.code(plane_code(plane), "this plane")?;
         control.g(code);

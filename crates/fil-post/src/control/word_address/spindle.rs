@@ -13,6 +13,7 @@ use fil_machine::rounding::Rounding;
 use fil_machine::setting::CodeAt;
 
 use super::modes;
+use crate::control::needs::Act;
 use crate::control::{Control, Function, sinumerik};
 use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
@@ -284,10 +285,7 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
 /// Refuses to turn a main spindle that is an axis under MODE/MILL while that axis is clamped.
 fn refuse_clamped(control: &Control) -> Result<()> {
     let is_axis = control.tables.mill_turn.is_some() && !control.tables.mills();
-    if !is_axis || !control.state.may_be(modal::AXIS_CLAMP, true) {
-        return Ok(());
-    }
-    PostCode::TurnsClamped.err("the main spindle would turn, and its axis is clamped")
+    if is_axis { control.require(Act::ClampedMove) } else { Ok(()) }
 }
 
 /// Warns of turns a minute above the highest speed that MAXRPM has set: it stays in force, and

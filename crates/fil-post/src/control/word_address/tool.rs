@@ -7,6 +7,7 @@ use fil_machine::letters::{H, T};
 use fil_machine::locations::{self as loc, ControlFamily, ToolFormat};
 
 use super::motion::{self, Motion};
+use crate::control::needs::Act;
 use crate::control::{Control, length_plane, sinumerik};
 use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
@@ -26,9 +27,7 @@ pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
     super::cycle::cancel(control)?;
     super::modes::leave_plane_of_its_own(control)?;
     control.flush_waiting()?;
-    if control.state.compensates() {
-        return PostCode::CompensationOn.err("at a tool change; CUTCOM/OFF must come before it");
-    }
+    control.require(Act::ToolChange)?;
     length_plane::before_length(control)?;
     let modal = control.commons.read(loc::TOOL_MODAL);
     let is_edge = control.tables.family == ControlFamily::Sinumerik;

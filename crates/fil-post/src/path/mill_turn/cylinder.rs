@@ -8,9 +8,10 @@ use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations::{self as loc, MillTurnMode};
 use nalgebra::{Point3, Vector3};
 
-use super::polar::{refuse_skipped, tenths};
+use super::polar::tenths;
 use crate::control::Control;
 use crate::control::family;
+use crate::control::needs::Act;
 use crate::control::sinumerik::transformation;
 use crate::control::word_address::motion::{self, Motion};
 use crate::control_state::modal;
@@ -30,7 +31,7 @@ const HALF_TURN: f64 = 180.0 + 1e-6;
 /// that the cylinder leaves by more than the tolerance; no feed a minute; blocks that may be
 /// skipped.
 pub(super) fn feed(post: &mut Post, from: Position, to: Position, target: Target) -> Result<()> {
-    refuse_skipped(post)?;
+    post.control.require(Act::MillTurnMotion)?;
     let resolution = post.control.tables.axis(0).resolution();
     let radius = to[0];
     // Under TRACYL the last Y is the way around the cylinder.
@@ -105,7 +106,7 @@ pub(super) fn stands(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) ->
 /// # Errors
 /// As [`super::position_of`]; no feed.
 pub(super) fn along(post: &mut Post, target: Target) -> Result<()> {
-    refuse_skipped(post)?;
+    post.control.require(Act::MillTurnMotion)?;
     let (point, axis) = rotary::transformed(post, target);
     let to = super::position_of(post, point, axis)?;
     go(post, to, target)?;
@@ -116,10 +117,7 @@ pub(super) fn along(post: &mut Post, target: Target) -> Result<()> {
 /// Begins it; the control must be in G1.
 fn begin(post: &mut Post, radius: f64) -> Result<()> {
     let control = &mut post.control;
-    if control.is_compensated() {
-        return PostCode::CompensationOn.err("where cylindrical interpolation begins");
-    }
-    super::refuse_skipped(control)?;
+    control.require(Act::CylinderOn)?;
     motion::ready(control)?;
     if control.tables.transforms {
         super::refuse_travel_of_c(control, PostCode::Cylinder)?;
@@ -148,10 +146,7 @@ pub(super) fn end(post: &mut Post) -> Result<()> {
         return Ok(());
     }
     let control = &mut post.control;
-    if control.is_compensated() {
-        return PostCode::CompensationOn.err("where cylindrical interpolation ends");
-    }
-    super::refuse_skipped(control)?;
+    control.require(Act::CylinderOff)?;
     let waiting = control.block.take();
     if control.tables.is_unrolled() {
         let knows_z = control.axis_position(2).is_some();

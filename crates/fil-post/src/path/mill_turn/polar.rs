@@ -14,6 +14,7 @@ use fil_machine::modes::{FeedMode, Plane};
 use nalgebra::{Point2, Point3, Rotation3, Unit};
 
 use crate::control::family;
+use crate::control::needs::{self, Act};
 use crate::control::sinumerik::transformation;
 use crate::control::word_address::modes;
 use crate::control::word_address::motion::Motion;
@@ -85,10 +86,7 @@ pub(super) fn begin(
     kind: MotionKind,
 ) -> Result<()> {
     let control = &mut post.control;
-    if control.is_compensated() {
-        return PostCode::CompensationOn.err("where polar interpolation begins");
-    }
-    super::refuse_skipped(control)?;
+    control.require(Act::PolarOn)?;
     super::refuse_travel_of_c(control, PostCode::Polar)?;
     control.begin()?;
     control.require_unit()?;
@@ -137,7 +135,7 @@ pub(super) fn line(
     point: Point3<f64>,
     kind: MotionKind,
 ) -> Result<()> {
-    refuse_skipped(post)?;
+    post.control.require(Act::MillTurnMotion)?;
     if let Some(from) = post.path.point {
         let from = rotary::transformed(post, Target { point: from, ..target }).0;
         let nearest = nearest(from.xy(), point.xy());
@@ -211,10 +209,7 @@ fn go(post: &mut Post, [x, y, z]: [f64; 3], axes: AxisSet, feed: &Feed, word: u1
 /// The feed of a motion: that of the machine for rapid ones.
 fn feed_of(post: &Post, kind: MotionKind) -> Result<Feed> {
     let MotionKind::Rapid(cause) = kind else {
-        return post
-            .path
-            .feed
-            .ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"));
+        return needs::feed(post.path.feed);
     };
     let mm = post.control.require_unit()?.in_mm();
     let value = post.control.commons.dbl_opt(loc::MILL_TURN_POLAR_RAPID).filter(|feed| *feed > 0.0);
@@ -224,24 +219,12 @@ fn feed_of(post: &Post, kind: MotionKind) -> Result<Feed> {
     Ok(Feed { value: value / mm, mode: FeedMode::PerMinute, cause })
 }
 
-/// Refuses a motion in blocks that may be skipped: with them left out the next one would move Z
-/// together with X and C, or pass the axis of the spindle.
-pub(super) fn refuse_skipped(post: &Post) -> Result<()> {
-    if post.control.state.may_be_skipped() {
-        return PostCode::SkippedPart.err(
-            "a motion in polar or cylindrical interpolation, which the next one goes on from \
-             otherwise",
-        );
-    }
-    Ok(())
-}
-
 /// Refuses an arc that passes the axis of the spindle, or that leaves the travel.
 ///
 /// # Errors
 /// It does.
 pub(super) fn check_arc(post: &Post, arc: &Arc, target: Target) -> Result<()> {
-    refuse_skipped(post)?;
+    post.control.require(Act::MillTurnMotion)?;
     let Some(start) = post.path.point else { return Ok(()) };
     let place = |point| rotary::transformed(post, Target { point, ..target }).0;
     let ends = [start, target.point].map(|point| flat(arc, point));
@@ -298,10 +281,7 @@ pub(super) fn end(post: &mut Post) -> Result<()> {
     if !control.tables.is_polar() {
         return Ok(());
     }
-    if control.is_compensated() {
-        return PostCode::CompensationOn.err("where polar interpolation ends");
-    }
-    super::refuse_skipped(control)?;
+    control.require(Act::PolarOff)?;
     let knows_z = control.axis_position(2).is_some();
     let waiting = control.block.take();
     say_end(control)?;

@@ -7,6 +7,7 @@ use fil_machine::modes::FeedMode;
 use fil_machine::setting::CodeAt;
 
 use super::super::spindle::{self, counted};
+use crate::control::needs;
 use crate::control::{Control, sinumerik};
 use crate::control_state::modal;
 use crate::errors::PostCode;
@@ -18,7 +19,7 @@ use crate::operation::Feed;
 /// No feed was given, or it does not fit its address.
 #[inline]
 pub fn feed_words(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
-    let feed = feed.ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"))?;
+    let feed = &needs::feed(feed.copied())?;
     feed_mode(control, feed)?;
     control.modal_feed(F, feed)
 }

@@ -5,6 +5,7 @@ use fil_diag::Result;
 use fil_machine::locations::{self as loc, ControlFamily};
 
 use super::{code_of_turns, is_of_surface, may_turn};
+use crate::control::needs::Act;
 use crate::control::{Control, sinumerik};
 use crate::control_state::{Rotation, Source, modal};
 use crate::errors::PostCode;
@@ -47,10 +48,7 @@ pub fn choose(control: &mut Control, chosen: CountedSpindle) -> Result<()> {
     if control.state.is(modal::MASTER_IS_SUB, chosen.is_side) {
         return Ok(());
     }
-    if control.state.may_be_skipped() {
-        return PostCode::SkippedPart
-            .err("SPINDL would make the control count another spindle on one side of OPSKIP");
-    }
+    control.require(Act::MasterSpindle)?;
     let turns = may_turn(control);
     control.begin()?;
     control.flush_waiting()?;
