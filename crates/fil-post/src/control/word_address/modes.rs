@@ -21,6 +21,7 @@ use crate::errors::PostCode;
 /// compensation that can't be said again in its middle.
 #[inline]
 pub fn require(control: &mut Control, unit: Unit) -> Result<()> {
+    control.require(Act::Motion)?;
     let state = &control.state;
     let stands = state.is(modal::UNITS, unit)
         && state.is(modal::DISTANCE, Distance::Absolute)
@@ -34,7 +35,6 @@ pub fn require(control: &mut Control, unit: Unit) -> Result<()> {
 
 #[cold]
 fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
-    control.require(Act::Motion)?;
     let waiting = control.block.take();
     let mut missing = Vec::new();
     let sinumerik = control.tables.family == ControlFamily::Sinumerik;

@@ -242,7 +242,8 @@ pub fn ready_for_arc(control: &mut Control, plane: Plane) -> Result<()> {
 /// As [`ready`].
 pub fn ready_for_hole(control: &mut Control, in_cycle: bool) -> Result<()> {
     // A cycle says its plane itself; a hole of single moves needs none.
-    let of_hole = std::mem::take(&mut control.state.may_be(modal::PLANE_IS_TEMPORARY, true));
+    let of_hole = control.state.may_be(modal::PLANE_IS_TEMPORARY, true);
+    control.state.set(modal::PLANE_IS_TEMPORARY, false);
     let stays = in_cycle && control.state.is(modal::CYCLE, true);
     if stays {
         control.state.set(modal::CYCLE, false);
