@@ -15,6 +15,16 @@ use crate::control::needs::Act;
 use crate::control_state::Place;
 use crate::errors::PostCode;
 
+/// Turns and clamps of the rotary axes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Rotary {
+    /// Where they were last brought, degrees over any number of turns, for axes whose words count
+    /// within one.
+    pub wound: [Option<f64>; 2],
+    /// They are clamped, as far as the post has commanded it.
+    pub clamped: Option<bool>,
+}
+
 /// The first rotary axis by number.
 const FIRST: usize = 3;
 
@@ -46,7 +56,7 @@ pub(super) fn turn(
         if changed.has(number) && stood(control, number) != Some(scaled[number]) {
             scaled[number] = word(control, number, to, scaled[number])?;
         } else {
-            control.wound[number - FIRST] = Some(to);
+            control.rotary.wound[number - FIRST] = Some(to);
             still = still.or(AxisSet::of(number));
         }
     }
@@ -77,7 +87,7 @@ pub(crate) fn refuse_clamped(control: &Control, changed: AxisSet) -> Result<()> 
 /// # Errors
 /// As [`Control::write_block`].
 pub(crate) fn release(control: &mut Control) -> Result<()> {
-    if !control.tables.clamps || control.clamped == Some(false) {
+    if !control.tables.clamps || control.rotary.clamped == Some(false) {
         return Ok(());
     }
     let motion = control.block.take();
@@ -85,7 +95,7 @@ pub(crate) fn release(control: &mut Control) -> Result<()> {
     control.block = motion;
     // In a block that may be left out, so may be what follows; outside of it the axes may
     // still be held.
-    control.clamped = Some(false).filter(|_| !control.state.may_be_skipped());
+    control.rotary.clamped = Some(false).filter(|_| !control.state.may_be_skipped());
     Ok(())
 }
 
@@ -101,7 +111,7 @@ pub(crate) fn clamp(control: &mut Control, on: bool) -> Result<()> {
     let code = control.code(at, what)?;
     control.m(code);
     control.write_block()?;
-    control.clamped = Some(on);
+    control.rotary.clamped = Some(on);
     Ok(())
 }
 
@@ -110,7 +120,7 @@ pub(crate) fn clamp(control: &mut Control, on: bool) -> Result<()> {
 /// # Errors
 /// The control would turn another way.
 pub(super) fn word(control: &mut Control, number: usize, to: f64, scaled: i64) -> Result<i64> {
-    let before = control.wound[number - FIRST].replace(to);
+    let before = control.rotary.wound[number - FIRST].replace(to);
     let form = control.commons.read(loc::ROTARY_OUTPUT);
     let Some(turn) = turn_on_tape(control, number, before, to, scaled)? else {
         return Ok(scaled);

@@ -22,11 +22,13 @@ pub mod needs;
 mod own_offsets;
 pub(crate) mod place;
 pub mod program;
+mod repeats;
 pub mod replaced;
 mod settings;
 pub mod sinumerik;
 pub(crate) mod skip;
 mod speed_of_others;
+pub mod spindle;
 mod straight_rapid;
 mod tap;
 mod texts;
@@ -34,8 +36,6 @@ pub mod vectors;
 mod waiting;
 pub mod word_address;
 mod writing;
-
-use std::collections::BTreeMap;
 
 use fil_diag::{Diag, Result};
 use fil_machine::address::no_address;
@@ -54,7 +54,7 @@ use crate::block::Block;
 use crate::cause::Cause;
 use crate::control_state::{Codes, Compensation, ControlState, Meaning, Source, modal};
 use crate::errors::PostCode;
-use crate::operation::{Feed, SpindleSpeed};
+use crate::operation::Feed;
 use crate::tape::Tape;
 use crate::warnings::Warnings;
 
@@ -87,6 +87,15 @@ pub struct TipOffset {
     pub frame: Option<(Rotation3<f64>, [f64; 2])>,
 }
 
+/// Tools that were changed and prepared.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Tools {
+    /// Tool changes that were written.
+    pub changes: u32,
+    /// The tool that was named last as the next one, since the last change.
+    pub prepared: Option<i64>,
+}
+
 /// The output side of the post.
 #[derive(Clone)]
 pub struct Control {
@@ -106,52 +115,28 @@ pub struct Control {
     pub tip: TipOffset,
     /// Words of the post that an edit has taken out and that do not stand on the tape since.
     left_out: Vec<left_out::Word>,
-    /// Words of REPEAT in the last motion block, by their letters.
-    pub(crate) repeated: Vec<(Letter, f64)>,
-    /// Letters whose REPEAT has ended since the last motion.
-    pub(crate) ended_repeats: Vec<Letter>,
-    /// Words REPEAT adds to each motion block, by letter, with their causes.
-    pub repeats: BTreeMap<Letter, (f64, Cause)>,
+    /// REPEAT.
+    pub(crate) repeat: repeats::Repeats,
     /// The block under construction.
     pub block: Block,
     /// The program has begun, its blocks are words, and nobody edits them.
     pub(crate) straight: bool,
     /// Number of blocks behind the last motion in the plane of cutter compensation.
     pub(crate) moved_in_plane_behind: u64,
-    /// Where the rotary axes were last brought, degrees over any number of turns, for axes
-    /// whose words count within one.
-    pub(crate) wound: [Option<f64>; 2],
-    /// The rotary axes are clamped, as far as the post has said it.
-    pub(crate) clamped: Option<bool>,
+    /// Turns and clamps of the rotary axes.
+    pub(crate) rotary: full_turn::Rotary,
     /// Number and name of the program.
     pub head: ProgramHead,
     /// What Klartext needs besides.
     pub(crate) klartext: klartext::Klartext,
     /// What a SINUMERIK needs besides.
     pub(crate) sinumerik: sinumerik::Sinumerik,
-    /// The last spindle speed, as it was asked for.
-    pub speed: Option<SpindleSpeed>,
-    /// The spindle turns clockwise or not, as far as the program has said it.
-    pub turning: Option<bool>,
-    /// How it turned when it last did.
-    pub turned: Option<bool>,
-    /// The second spindle has been turned last, and not stopped.
-    pub side_turns: bool,
-    /// The CL file speaks of the second spindle of a lathe, on a machine whose control counts
-    /// the one that it is told to.
-    pub counts_side: bool,
-    /// The spindle that is not counted may turn still.
-    pub other_turns: bool,
-    /// Highest speed of the spindle that is not counted, turns a minute.
-    pub limit_of_other: Option<f64>,
-    /// The spindle range in force that the program has said, from 0.
-    pub range: Option<usize>,
+    /// What the CL file has asked of the spindles.
+    pub spindle: spindle::SpindleAsked,
     /// The location of the coolant that flows, as COOLNT asked for it.
     pub(crate) coolant: Option<CodeAt>,
-    /// Tool changes that were written.
-    pub(crate) changes: u32,
-    /// The tool that was named last as the next one, since the last change.
-    pub(crate) prepared: Option<i64>,
+    /// Tools that were changed and prepared.
+    pub(crate) tools: Tools,
     /// The compensation the CL file asks for.
     asked: Compensation,
     /// ARCSLP is on: blocks of a helix say how far it rises.
@@ -185,28 +170,17 @@ impl Control {
             waiting: Waiting::default(),
             tip: TipOffset::default(),
             left_out: Vec::new(),
-            repeated: Vec::new(),
-            ended_repeats: Vec::new(),
-            wound: [None; 2],
-            clamped: None,
-            repeats: BTreeMap::new(),
+            repeat: repeats::Repeats::default(),
+            rotary: full_turn::Rotary::default(),
+            spindle: spindle::SpindleAsked::default(),
+            tools: Tools::default(),
             block: Block::default(),
             straight: false,
             moved_in_plane_behind: 0,
             head: ProgramHead::default(),
             klartext: klartext::Klartext::default(),
             sinumerik: sinumerik::Sinumerik::default(),
-            speed: None,
-            turning: None,
-            turned: None,
-            side_turns: false,
-            counts_side: false,
-            other_turns: false,
-            limit_of_other: None,
-            range: None,
             coolant: None,
-            changes: 0,
-            prepared: None,
             asked: Compensation::Off,
             helix_words: false,
             last_arc: 0,

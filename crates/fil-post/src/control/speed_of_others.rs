@@ -39,7 +39,7 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
     let by_surface = control.state.is(modal::SURFACE_SPEED, true);
     let is_open = control.state.surface_speed_is_open();
     let is_speed = !skipped && !is_open && control.commons.read(loc::SPINDLE_DIRECT_RPM);
-    control.speed = match said.filter(|_| is_speed) {
+    control.spindle.speed = match said.filter(|_| is_speed) {
         None => None,
         Some(value) if by_surface && control.is_metric() => Some(SpindleSpeed::Meters(value)),
         Some(value) if by_surface => Some(SpindleSpeed::Feet(value)),
@@ -49,8 +49,8 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
 
 /// G94 and G95 of a SINUMERIK end G96, which is one of their group.
 fn end_surface_speed(control: &mut Control) {
-    if matches!(control.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_))) {
-        control.speed = None;
+    if matches!(control.spindle.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_))) {
+        control.spindle.speed = None;
         control.state.forget(modal::SURFACE_SPEED, Source::Author);
     }
 }

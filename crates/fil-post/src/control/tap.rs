@@ -16,7 +16,7 @@ pub(super) const SHARE: f64 = 0.0005;
 /// # Errors
 /// A feed a minute without a speed.
 pub fn pitch(control: &Control, cycle: &Cycle) -> Result<f64> {
-    match (cycle.feed, control.speed) {
+    match (cycle.feed, control.spindle.speed) {
         (CycleFeed::Lead(lead), _) => Ok(lead.value),
         (CycleFeed::Feed(feed), _) if feed.mode == FeedMode::PerRevolution => Ok(feed.value),
         (CycleFeed::Feed(feed), Some(SpindleSpeed::Revolutions(speed))) if speed > 0.0 => {

@@ -98,7 +98,7 @@ fn refuse_repeats(control: &Control) -> Result<()> {
         let mut numbers = AxisSet::ROTARY.and(control.tables.present()).numbers();
         numbers.any(|number| control.tables.axis(number).letter == *letter)
     };
-    match control.repeats.keys().find(|letter| rotary(letter) || IJK.contains(letter)) {
+    match control.repeat.words.keys().find(|letter| rotary(letter) || IJK.contains(letter)) {
         Some(letter) => PostCode::TipControl.err_with(
             format!("REPEAT of {letter}: the direction of the tool is said by a vector"),
             SAY_ANGLES,

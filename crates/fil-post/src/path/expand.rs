@@ -43,7 +43,7 @@ pub fn hole(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> R
 /// # Errors
 /// Any other machine; a spindle that stands or turns at surface speed; a dwell.
 fn tap(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result<()> {
-    if spindle::stands(control) || control.side_turns && !spindle::may_turn(control) {
+    if spindle::stands(control) || control.spindle.side_turns && !spindle::may_turn(control) {
         let usual = "a tap while the spindle stands; SPINDL before it turns it";
         return PostCode::CycleForm.err(spindle::why_it_stands(control, usual));
     }
@@ -75,7 +75,7 @@ fn lead_of(control: &Control, cycle: &Cycle) -> Result<Lead> {
         CycleFeed::Lead(lead) => return Ok(lead),
         CycleFeed::Feed(feed) => feed,
     };
-    let value = match (feed.mode, control.speed) {
+    let value = match (feed.mode, control.spindle.speed) {
         (FeedMode::PerRevolution, Some(SpindleSpeed::Revolutions(_))) => feed.value,
         (FeedMode::PerMinute, Some(SpindleSpeed::Revolutions(speed))) if speed > 0.0 => {
             feed.value / control.upm_factor() / speed

@@ -152,7 +152,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFra
         forget_positions(&mut post.control, true);
         post.control.tip.frame = Some((turn, angles));
     }
-    if post.control.tables.clamps && post.control.clamped != Some(true) {
+    if post.control.tables.clamps && post.control.rotary.clamped != Some(true) {
         full_turn::clamp(&mut post.control, true)?;
     }
     post.path.interrupt();

@@ -153,7 +153,7 @@ fn refuse_without_depth(
 /// one than that of the holes before.
 fn refuse_another_lead(control: &Control, cycle: &mut Cycle) -> Result<()> {
     let CycleFeed::Feed(feed) = cycle.feed else { return Ok(()) };
-    let Some(SpindleSpeed::Revolutions(turns)) = control.speed else { return Ok(()) };
+    let Some(SpindleSpeed::Revolutions(turns)) = control.spindle.speed else { return Ok(()) };
     if feed.mode != FeedMode::PerMinute {
         return Ok(());
     }

@@ -106,8 +106,8 @@ pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
     control.state.set(modal::SPINDLE, Rotation::Standing);
     // Said again, as its feed depends on what turns now.
     control.state.forget(modal::FEED_MODE, Source::Post);
-    (control.turning, control.turned) = (None, None);
-    (control.speed, control.range) = (None, None);
+    (control.spindle.turning, control.spindle.turned) = (None, None);
+    (control.spindle.speed, control.spindle.range) = (None, None);
     post.path.feed = None;
     post.path.rotary = None;
     post.path.interrupt();

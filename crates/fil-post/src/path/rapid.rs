@@ -243,7 +243,7 @@ pub(super) fn z_goes_first(control: &mut Control, motion: &Motion) -> Result<boo
 /// No order is safe: the axis may stand on either side of the end, by the skip switch, or
 /// anywhere.
 fn goes_first(control: &mut Control, motion: &Motion, number: usize, up: bool) -> Result<bool> {
-    if !control.ended_repeats.is_empty() {
+    if !control.repeat.ended.is_empty() {
         repeat::doubt_ended(control);
     }
     let axis = *control.tables.axis(number);

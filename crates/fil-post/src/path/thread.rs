@@ -96,7 +96,7 @@ pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
         None => awaited.start = Some(target),
         Some(start) => {
             awaited.is_cut = true;
-            let side = side_of(&awaited, start, post.control.counts_side)?;
+            let side = side_of(&awaited, start, post.control.spindle.is_side)?;
             let clearance = clearance_of(&awaited, start, side);
             let crest = [start, target];
             let thread = Thread { crest, side, clearance, ..awaited.thread };
@@ -261,15 +261,15 @@ pub fn counted_change(post: &Post, lead: Lead, counted: &Lead, target: Target) -
 /// tool would begin at another angle of the spindle, as it lags by the speed.
 fn refuse_other_turns(post: &mut Post) -> Result<()> {
     let control = &post.control;
-    let above = |limit: &f64| match control.speed {
+    let above = |limit: &f64| match control.spindle.speed {
         Some(SpindleSpeed::Revolutions(speed)) => speed > *limit,
         _ => false,
     };
     let now = Turns {
-        speed: control.speed,
+        speed: control.spindle.speed,
         held: control.state.get(modal::SPEED_LIMIT).filter(above),
         clockwise: spindle::clockwise_in_motion(control),
-        is_side: control.counts_side,
+        is_side: control.spindle.is_side,
     };
     match post.path.thread_turns {
         Some(before) if before != now => {

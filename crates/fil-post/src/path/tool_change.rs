@@ -63,8 +63,8 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     frame::end(control)?;
     control.tape.align();
     let around = around(control, &wanted);
-    control.changes += 1;
-    control.prepared = None;
+    control.tools.changes += 1;
+    control.tools.prepared = None;
     let cause = wanted.causes[0].whole();
     write_blocks(control, around[0])?;
     control.because(cause, |control| go_to_change_position(control, cause))?;
@@ -137,7 +137,7 @@ pub(super) fn say_length_lies_across(control: &mut Control) {
 fn around(control: &mut Control, wanted: &ToolChange) -> [UserBlocks; 2] {
     let last = user_blocks::LAST_CHANGE;
     let has_last = last.before.is_on(&control.commons) || last.after.is_on(&control.commons);
-    if has_last && control.changes > 0 && wanted.next == NextTools::Unknown {
+    if has_last && control.tools.changes > 0 && wanted.next == NextTools::Unknown {
         let message = "the blocks of the last tool change: whether a tool change is the last one \
                        can't be seen in a CL file that can't be read ahead";
         control.warnings.add(PostCode::IgnoredPart, message.to_string());
@@ -147,7 +147,7 @@ fn around(control: &mut Control, wanted: &ToolChange) -> [UserBlocks; 2] {
         NextTools::Some { other } => control.commons.read(loc::TOOL_MODAL) && other.is_none(),
         NextTools::Unknown => false,
     };
-    let own = match (control.changes, is_last) {
+    let own = match (control.tools.changes, is_last) {
         (0, _) => user_blocks::FIRST_CHANGE,
         (_, true) => last,
         (_, false) => user_blocks::OTHER_CHANGE,

@@ -160,7 +160,7 @@ impl PartFeed {
 /// Turns a minute of the spindle, as S says them: the machine may have brought the speed asked for
 /// within its ranges.
 fn turns(control: &Control) -> Result<f64> {
-    let asked = match control.speed {
+    let asked = match control.spindle.speed {
         Some(SpindleSpeed::Revolutions(speed)) => Some(speed),
         _ => None,
     };

@@ -23,6 +23,6 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     items.deny_rest()?;
     let code = post.control.code(at, what)?;
     carry_out(post, Operation::Function(M, code))?;
-    post.control.clamped = Some(on).filter(|_| !post.control.state.may_be_skipped());
+    post.control.rotary.clamped = Some(on).filter(|_| !post.control.state.may_be_skipped());
     Ok(())
 }

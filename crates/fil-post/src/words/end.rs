@@ -60,10 +60,11 @@ pub fn finish(post: &mut Post, end: End) -> Result<()> {
 /// Stops both spindles where the control counts the one that it is told to: M30 stops the one
 /// that is counted. The next program begins with the main spindle counted, as this one has.
 fn leave_side_spindle(post: &mut Post) -> Result<()> {
-    if !(post.control.counts_side || post.control.other_turns) {
+    if !(post.control.spindle.is_side || post.control.spindle.other_turns) {
         return Ok(());
     }
-    let (began_with_side, other_turns) = (post.control.counts_side, post.control.other_turns);
+    let (began_with_side, other_turns) =
+        (post.control.spindle.is_side, post.control.spindle.other_turns);
     if spindle::may_turn(&post.control) {
         carry_out(post, Operation::Spindle(Spindle::Off))?;
     }

@@ -55,7 +55,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
 /// Warns of a feed a turn while the second spindle turns on a machine that does not say which one
 /// its control counts.
 pub fn warn_beside_second_spindle(post: &mut Post, feed: Feed) {
-    if feed.mode == FeedMode::PerRevolution && post.control.side_turns {
+    if feed.mode == FeedMode::PerRevolution && post.control.spindle.side_turns {
         post.warn(PostCode::FeedOfSpindle, "the turns may be those of the main one".to_string());
     }
 }

@@ -184,7 +184,7 @@ fn side(post: &Post, items: &mut Items, crest: [Target; 2]) -> Result<ThreadSide
         (Some(w::IN), _) => Ok(ThreadSide::Inside),
         (Some(w::OUT), _) => Ok(ThreadSide::Outside),
         // That of a part in the second spindle may look to -Z.
-        (Some(_), Some(from)) if from.z < start.z && post.control.counts_side => {
+        (Some(_), Some(from)) if from.z < start.z && post.control.spindle.is_side => {
             Ok(ThreadSide::Behind)
         }
         (Some(_), _) => Ok(ThreadSide::Before),

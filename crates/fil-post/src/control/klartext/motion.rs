@@ -171,7 +171,7 @@ fn turn(control: &mut Control, arc: &PlaneArc, helix: Helix, feed: Option<&Feed>
 pub fn ready(control: &mut Control) -> Result<()> {
     control.begin()?;
     control.require(Act::Motion)?;
-    if !control.ended_repeats.is_empty() {
+    if !control.repeat.ended.is_empty() {
         words_of_repeat::doubt_ended(control);
     }
     control.require_unit()?;
@@ -252,8 +252,11 @@ pub(super) fn write(control: &mut Control, turning: AxisSet) -> Result<()> {
     }
     // Words of others have no place in the frame of the machine.
     let of_machine = control.block.m_codes().iter().any(|(code, _)| *code == IN_MACHINE);
-    let kept =
-        if control.repeats.is_empty() || of_machine { Vec::new() } else { repeat::add(control)? };
+    let kept = if control.repeat.words.is_empty() || of_machine {
+        Vec::new()
+    } else {
+        repeat::add(control)?
+    };
     if control.block.is_empty() {
         // A helix may have no word that the block counts.
         control.require(Act::Block)?;

@@ -46,8 +46,8 @@ pub fn set(control: &mut Control, words: Vec<(Letter, f64, Cause)>) -> Result<()
 /// An axis in an arc or in the line of a hole.
 pub fn add(control: &mut Control) -> Result<Vec<(Letter, f64)>> {
     let mut kept = Vec::new();
-    control.repeated.clear();
-    for (letter, (value, cause)) in control.repeats.clone() {
+    control.repeat.written.clear();
+    for (letter, (value, cause)) in control.repeat.words.clone() {
         if let Some(code) = FunctionCode::of_value(value).filter(|_| letter == M) {
             let stands = control.block.m_codes().iter().any(|(other, _)| *other == code);
             if !stands {
@@ -64,7 +64,7 @@ pub fn add(control: &mut Control) -> Result<Vec<(Letter, f64)>> {
                     .err(format!("REPEAT: {letter} means something else in {what}"));
             }
             kept.push((letter, control.commons.last_output(letter)));
-            control.repeated.push((letter, value));
+            control.repeat.written.push((letter, value));
             control.because(cause, |control| control.word(letter, value))?;
         }
     }

@@ -37,15 +37,15 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         if let (SpindleSpeed::Revolutions(speed), true) = (speed, by_speed) {
             words::take_range_of(control, speed)?;
         }
-        control.speed = Some(speed);
+        control.spindle.speed = Some(speed);
         let value = words::value_of(control, speed);
         tool::speed(control, value)?;
     }
     control.block.cause.word = direction_word;
     words::refuse_turning_back(control, &turn)?;
     let said = words::take_turn(control, &turn);
-    control.turning = control.turned;
-    control.klartext.clockwise = Some(control.turned.unwrap_or(true));
+    control.spindle.turning = control.spindle.turned;
+    control.klartext.clockwise = Some(control.spindle.turned.unwrap_or(true));
     let direction = match said {
         Some(true) => loc::SPINDLE_CW_CODE,
         Some(false) => loc::SPINDLE_CCW_CODE,

@@ -63,10 +63,10 @@ pub(super) fn number(control: &Control, tool: i64) -> Result<String> {
 /// # Errors
 /// A number that does not fit.
 pub fn select(control: &mut Control, tool: i64) -> Result<()> {
-    if !control.commons.read(loc::TOOL_PRESELECT) || control.prepared == Some(tool) {
+    if !control.commons.read(loc::TOOL_PRESELECT) || control.tools.prepared == Some(tool) {
         return Ok(());
     }
-    control.prepared = Some(tool);
+    control.tools.prepared = Some(tool);
     control.begin()?;
     let mut line = Line::default();
     let cause = control.block.cause;

@@ -265,7 +265,7 @@ fn peck_words(
 /// a program in inches PITA says that the pitch counts millimeters, which software without
 /// that parameter refuses.
 fn tap_words(control: &mut Control, cycle: &Cycle, dwell: &str) -> Result<String> {
-    let Some(asked @ SpindleSpeed::Revolutions(_)) = control.speed else {
+    let Some(asked @ SpindleSpeed::Revolutions(_)) = control.spindle.speed else {
         return refuse("TAP before SPINDL: CYCLE84 needs the turns of the spindle");
     };
     let speed = spindle::value_of(control, asked);

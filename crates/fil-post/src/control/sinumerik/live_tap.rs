@@ -41,7 +41,7 @@ pub fn tap(control: &mut Control, cycle: &Cycle, hole: &Hole) -> Result<()> {
         return PostCode::CycleForm
             .err("a tap, and how the live tool turns is not known; SPINDL before it says it");
     };
-    let Some(asked @ SpindleSpeed::Revolutions(_)) = control.speed else {
+    let Some(asked @ SpindleSpeed::Revolutions(_)) = control.spindle.speed else {
         return PostCode::CycleForm.err("a tap needs the turns of the live tool (SPINDL / RPM)");
     };
     let speed = spindle::value_of(control, asked);

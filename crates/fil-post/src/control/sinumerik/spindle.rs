@@ -36,12 +36,12 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
             };
             super::put_text(control, &format!("{name}={}", plain(angle, DIGITS)))?;
             control.state.set(modal::SPINDLE, Rotation::Standing);
-            control.turning = None;
+            control.spindle.turning = None;
             Ok(())
         }
         Spindle::Turn(turn) => {
             words::write(control, Spindle::Turn(turn))?;
-            control.sinumerik.clockwise = Some(control.turned.unwrap_or(true));
+            control.sinumerik.clockwise = Some(control.spindle.turned.unwrap_or(true));
             if turn.speed.is_some() {
                 takes_feed_a_turn(control, turn.speed);
             }
@@ -110,7 +110,9 @@ pub fn says_feed_mode(control: &mut Control, feed: &Feed) -> Result<bool> {
         FeedMode::PerRevolution => Some(A_TURN),
         FeedMode::InverseTime => None,
     };
-    let (Some(speed), Some(_), Some(code)) = (control.speed.filter(of_surface), usual, code) else {
+    let (Some(speed), Some(_), Some(code)) =
+        (control.spindle.speed.filter(of_surface), usual, code)
+    else {
         return refuse(
             "G94 or G95 under a surface speed: they stand in one group with G96 and would end it; \
              give the feed a turn, or SPINDL / RPM",
@@ -130,7 +132,7 @@ pub fn says_feed_mode(control: &mut Control, feed: &Feed) -> Result<bool> {
 /// Refuses G94 and G95 where a surface speed may be in force still, with an S that nobody has read:
 /// they would end it, and the spindle would go on at any speed.
 fn refuse_in_doubt(control: &Control) -> Result<()> {
-    if !control.state.surface_speed_is_open() || control.speed.is_some() {
+    if !control.state.surface_speed_is_open() || control.spindle.speed.is_some() {
         return Ok(());
     }
     PostCode::Family.err_with(

@@ -252,7 +252,9 @@ pub fn start_on_tape(control: &Control, from: &Position) -> Option<[f64; 3]> {
         };
         // What lies off by more than rounding is another position.
         let off = (*stand - from[number]).abs() > 0.51 * axis.resolution();
-        if off || (!control.repeats.is_empty() && control.repeats.contains_key(&axis.letter)) {
+        if off
+            || (!control.repeat.words.is_empty() && control.repeat.words.contains_key(&axis.letter))
+        {
             return None;
         }
     }

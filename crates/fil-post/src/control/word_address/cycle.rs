@@ -236,7 +236,7 @@ fn repeated_axes(control: &mut Control, across: &Motion, of: AxisSet) -> Result<
 /// The machine has brought the speed within its range.
 fn check_tap_speed(control: &mut Control, cycle: &Cycle) -> Result<()> {
     let (CycleFeed::Feed(feed), Some(asked @ SpindleSpeed::Revolutions(turns))) =
-        (cycle.feed, control.speed)
+        (cycle.feed, control.spindle.speed)
     else {
         return Ok(());
     };
@@ -270,7 +270,7 @@ fn rigid_mode(control: &mut Control, cycle: &Cycle) -> Result<()> {
     if control.state.is(modal::CYCLE, true) {
         return Ok(());
     }
-    let Some(asked @ SpindleSpeed::Revolutions(_)) = control.speed else {
+    let Some(asked @ SpindleSpeed::Revolutions(_)) = control.spindle.speed else {
         return PostCode::CycleForm
             .err("a rigid tap needs the turns of the spindle, and no SPINDL gave them");
     };

@@ -149,7 +149,7 @@ fn in_revolutions(control: &mut Control, turns: f64) -> Result<f64> {
 /// radius.
 pub(crate) fn known_speed(control: &Control) -> Option<f64> {
     // The last S may be that of a limit.
-    let Some(SpindleSpeed::Revolutions(asked)) = control.speed else { return None };
+    let Some(SpindleSpeed::Revolutions(asked)) = control.spindle.speed else { return None };
     let speed = speed_in_range(control, asked);
     Some(speed).filter(|speed| *speed > 0.0 && !counted::is_unknown(control))
 }
@@ -163,7 +163,7 @@ fn lowest_of_surface(control: &Control) -> Option<f64> {
         return None;
     }
     let metric = control.is_metric();
-    let (speed, mm) = (surface_in_unit(control.speed?, metric)?, control.unit?.in_mm());
+    let (speed, mm) = (surface_in_unit(control.spindle.speed?, metric)?, control.unit?.in_mm());
     let format = control.tables.addresses.format(S)?;
     // What S says, where rounding makes it less.
     let said = format.unscale(Rounding::of(S).scale(speed, format).ok()?);

@@ -212,7 +212,7 @@ pub fn ready(control: &mut Control) -> Result<()> {
     if !control.head.started {
         control.begin()?;
     }
-    if !control.ended_repeats.is_empty() {
+    if !control.repeat.ended.is_empty() {
         super::repeat::doubt_ended(control);
     }
     let unit = control.require_unit()?;
@@ -398,7 +398,7 @@ pub fn write_turning(control: &mut Control, turning: AxisSet) -> Result<()> {
     if in_plane {
         warn_of_still_blocks(control);
     }
-    if control.repeats.is_empty() {
+    if control.repeat.words.is_empty() {
         control.write_block()?;
     } else {
         super::repeat::write_with_repeats(control)?;

@@ -18,7 +18,7 @@ use crate::errors::PostCode;
 pub fn set(control: &mut Control, words: Vec<(Letter, f64, Cause)>) -> Result<()> {
     if words.is_empty() {
         warn_of_what_stays(control);
-        control.ended_repeats.extend(std::mem::take(&mut control.repeats).into_keys());
+        control.repeat.ended.extend(std::mem::take(&mut control.repeat.words).into_keys());
         return Ok(());
     }
     for (letter, value, cause) in words {
@@ -26,8 +26,8 @@ pub fn set(control: &mut Control, words: Vec<(Letter, f64, Cause)>) -> Result<()
         refuse_center(letter)?;
         refuse_rotary(control, letter)?;
         refuse_mode(control, letter, value)?;
-        control.ended_repeats.retain(|ended| *ended != letter);
-        control.repeats.insert(letter, (value, cause));
+        control.repeat.ended.retain(|ended| *ended != letter);
+        control.repeat.words.insert(letter, (value, cause));
     }
     Ok(())
 }
@@ -41,7 +41,8 @@ const STAYING: &[u8] = b"DHMST";
 /// REPEAT/OFF ends the repetition, not what the last words said.
 fn warn_of_what_stays(control: &mut Control) {
     let staying: Vec<String> = control
-        .repeats
+        .repeat
+        .words
         .iter()
         .filter(|(letter, _)| STAYING.contains(&letter.byte()))
         .map(|(letter, (value, _))| format!("{letter}{value}"))
@@ -106,14 +107,14 @@ fn refuse_mode(control: &Control, letter: Letter, value: f64) -> Result<()> {
 /// Puts what a REPEAT that is over left on the tape in doubt.
 #[cold]
 pub fn doubt_ended(control: &mut Control) {
-    for letter in std::mem::take(&mut control.ended_repeats) {
-        let said = control.repeated.iter().find(|(repeated, _)| *repeated == letter);
+    for letter in std::mem::take(&mut control.repeat.ended) {
+        let said = control.repeat.written.iter().find(|(repeated, _)| *repeated == letter);
         match said.copied() {
             Some((_, value)) if XYZ.contains(&letter) => control.state.stand(letter, value),
             _ => control.state.doubt(letter),
         }
     }
-    control.repeated.clear();
+    control.repeat.written.clear();
 }
 
 /// Writes the block under construction with the words of REPEAT whose letters it
@@ -123,12 +124,12 @@ pub fn doubt_ended(control: &mut Control) {
 /// As [`Control::write_block`].
 pub fn write_with_repeats(control: &mut Control) -> Result<()> {
     let mut kept = Vec::new();
-    control.repeated.clear();
-    for (letter, (value, cause)) in control.repeats.clone() {
+    control.repeat.written.clear();
+    for (letter, (value, cause)) in control.repeat.words.clone() {
         if !control.block_has(letter) {
             refuse_in_arc_or_cycle(control, letter)?;
             kept.push((letter, control.commons.last_output(letter)));
-            control.repeated.push((letter, value));
+            control.repeat.written.push((letter, value));
             control.because(cause, |control| control.word(letter, value))?;
         }
     }

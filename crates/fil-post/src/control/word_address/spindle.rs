@@ -53,7 +53,7 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
             }
             limit_block(control, limit)?;
             warn_of_limit(control, limit);
-            warn_above_limit(control, control.speed);
+            warn_above_limit(control, control.spindle.speed);
             Ok(())
         }
         Spindle::Turn(turn) => start(control, turn),
@@ -97,12 +97,13 @@ fn codes(control: &Control) -> [CodeAt; 3] {
 /// The settings of ranges, and the code of a spindle that nothing gives a direction, are those of
 /// the main spindle.
 fn is_main(control: &Control) -> bool {
-    !control.tables.mills() && !control.counts_side
+    !control.tables.mills() && !control.spindle.is_side
 }
 
 /// S is a surface speed when the next motion is made, whoever has said it.
 pub fn is_of_surface(control: &Control) -> bool {
-    let asked = matches!(control.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_)));
+    let asked =
+        matches!(control.spindle.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_)));
     asked || control.state.is(modal::SURFACE_SPEED, true) && !waits(control)
 }
 
@@ -125,7 +126,7 @@ fn limit_block(control: &mut Control, limit: f64) -> Result<()> {
 /// A surface speed that is in force is said again, as the highest speed is a word beside it;
 /// another one brings it along.
 fn limit_beside_surface_speed(control: &mut Control) -> Result<()> {
-    match control.speed {
+    match control.spindle.speed {
         Some(speed @ (SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_))) => {
             control.flush_waiting()?;
             speed_words(control, speed)?;
@@ -169,7 +170,8 @@ fn side_spindle(control: &mut Control, side: SideSpindle) -> Result<()> {
         Some(false) => loc::SPINDLE_SIDE_CCW_CODE,
     };
     let code = control.code(at, "the second spindle")?;
-    let of_surface = matches!(control.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_)));
+    let of_surface =
+        matches!(control.spindle.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_)));
     if side.speed.is_some() && of_surface {
         return PostCode::WordForm.err(
             "SPINDL/SIDE with a speed while the main spindle turns at surface speed, which the \
@@ -183,18 +185,18 @@ fn side_spindle(control: &mut Control, side: SideSpindle) -> Result<()> {
             control.g_of_record(code);
         }
         control.word(S, speed)?;
-        control.speed = None;
+        control.spindle.speed = None;
     }
     control.block.cause.word = side.words[1];
     control.m(code);
-    control.side_turns = side.turn.is_some();
+    control.spindle.side_turns = side.turn.is_some();
     control.write_block()
 }
 
 /// Stops the spindle at once, after all that still waits for a motion.
 fn off(control: &mut Control) -> Result<()> {
     control.flush_waiting()?;
-    control.turning = None;
+    control.spindle.turning = None;
     let [.., stop] = codes(control);
     match control.code_if_any(stop) {
         Some(code) => control.m(code),
@@ -209,7 +211,7 @@ fn off(control: &mut Control) -> Result<()> {
 /// # Errors
 /// The machine has no address for an angle, or its format can't hold it.
 fn orient(control: &mut Control, angle: Option<f64>) -> Result<()> {
-    control.turning = None;
+    control.spindle.turning = None;
     let Some(angle) = angle else {
         return place(control, loc::SPINDLE_ORIENT_CODE, "SPINDL/ORIENT");
     };
@@ -255,8 +257,8 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         take_range_of(control, speed)?;
     }
     refuse_speed_of_the_other(control, &turn)?;
-    warn_above_limit(control, turn.speed.or(control.speed));
-    match (turn.speed, control.speed) {
+    warn_above_limit(control, turn.speed.or(control.spindle.speed));
+    match (turn.speed, control.spindle.speed) {
         (Some(speed), _) => speed_words(control, speed)?,
         // What S counts is not known, as behind blocks that may be skipped.
         (None, Some(speed)) if !counts_as(control, speed) => speed_words(control, speed)?,
@@ -270,9 +272,9 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
     refuse_clamped(control)?;
     refuse_turning_back(control, &turn)?;
     let said = take_turn(control, &turn);
-    control.turning = control.turned;
+    control.spindle.turning = control.spindle.turned;
     let [clockwise, counterclockwise, _] = codes(control);
-    let direction = match (said, control.turning) {
+    let direction = match (said, control.spindle.turning) {
         (Some(true), _) => clockwise,
         (Some(false), _) => counterclockwise,
         (None, Some(false)) if !is_main(control) => counterclockwise,
@@ -305,7 +307,7 @@ fn warn_above_limit(control: &mut Control, speed: Option<SpindleSpeed>) {
 /// Refuses SPINDL without a speed behind MODE or SIDE: S is that of the other spindle there, and
 /// this one would turn by it.
 fn refuse_speed_of_the_other(control: &Control, turn: &SpindleTurn) -> Result<()> {
-    let unknown = turn.speed.is_none() && control.speed.is_none();
+    let unknown = turn.speed.is_none() && control.spindle.speed.is_none();
     if !unknown || control.commons.last_output(S) == EMPTY {
         return Ok(());
     }
@@ -374,7 +376,7 @@ pub fn turn_on(control: &mut Control, clockwise: bool) -> Result<()> {
     let code = control.code(at, "the spindle turned again")?;
     control.m(code);
     control.write_block()?;
-    control.turning = Some(clockwise);
+    control.spindle.turning = Some(clockwise);
     Ok(())
 }
 
@@ -395,7 +397,7 @@ fn speed_words(control: &mut Control, speed: SpindleSpeed) -> Result<()> {
     if let Some(code) = code {
         control.g_of_record(code);
     }
-    control.speed = Some(speed);
+    control.spindle.speed = Some(speed);
     let of_surface = !matches!(speed, SpindleSpeed::Revolutions(_));
     let letter = control.commons.read(loc::SPINDLE_MAX_ADDRESS).filter(|_| of_surface);
     if let (Some(letter), Some(limit)) = (letter, control.state.get(modal::SPEED_LIMIT)) {

@@ -73,10 +73,10 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
 /// # Errors
 /// A number that does not fit.
 pub fn select(control: &mut Control, tool: i64) -> Result<()> {
-    if !control.commons.read(loc::TOOL_PRESELECT) || control.prepared == Some(tool) {
+    if !control.commons.read(loc::TOOL_PRESELECT) || control.tools.prepared == Some(tool) {
         return Ok(());
     }
-    control.prepared = Some(tool);
+    control.tools.prepared = Some(tool);
     control.word(T, tool as f64)?;
     control.write_block()
 }

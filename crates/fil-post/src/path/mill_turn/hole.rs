@@ -143,7 +143,7 @@ fn feed_of_tap(control: &mut Control, cycle: &Cycle, along: usize) -> Result<Fee
                 .err("how the live tool turns is not known here; SPINDL before the tap says it");
         }
     }
-    let Some(asked @ SpindleSpeed::Revolutions(turns)) = control.speed else {
+    let Some(asked @ SpindleSpeed::Revolutions(turns)) = control.spindle.speed else {
         return PostCode::CycleForm.err("a tap needs the turns of the live tool (SPINDL / RPM)");
     };
     let speed = spindle::value_of(control, asked);

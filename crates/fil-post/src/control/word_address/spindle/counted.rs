@@ -19,7 +19,7 @@ pub fn is_chosen(control: &Control) -> bool {
 
 /// The second spindle is the one that the CL file speaks of, and its codes are its own.
 pub fn has_own_codes(control: &Control) -> bool {
-    control.counts_side && control.code_if_any(loc::SPINDLE_SIDE_CW_CODE).is_some()
+    control.spindle.is_side && control.code_if_any(loc::SPINDLE_SIDE_CW_CODE).is_some()
 }
 
 /// A surface speed of the second spindle, and its limit, are its own: SETMS makes it so.
@@ -38,7 +38,7 @@ pub fn is_unknown(control: &Control) -> bool {
 /// A record that leaves speed or direction to the spindle before; a surface speed of a spindle
 /// that may turn, which would become that of the other one; blocks that may be skipped.
 pub fn choose(control: &mut Control, chosen: CountedSpindle) -> Result<()> {
-    let changes = control.counts_side != chosen.is_side;
+    let changes = control.spindle.is_side != chosen.is_side;
     if changes && !chosen.is_whole {
         return PostCode::WordForm.err(
             "SPINDL of the other spindle without its speed and CLW or CCLW: those before are not \
@@ -55,8 +55,8 @@ pub fn choose(control: &mut Control, chosen: CountedSpindle) -> Result<()> {
     end_surface_speed(control)?;
     write(control, chosen.is_side)?;
     if changes {
-        control.other_turns = turns;
-        control.counts_side = chosen.is_side;
+        control.spindle.other_turns = turns;
+        control.spindle.is_side = chosen.is_side;
         forget_the_other(control);
     }
     control.state.set(modal::MASTER_IS_SUB, chosen.is_side);
@@ -81,7 +81,7 @@ fn end_surface_speed(control: &mut Control) -> Result<()> {
         control.write_block()?;
         sinumerik::spindle::counts_turns(control);
     }
-    control.speed = None;
+    control.spindle.speed = None;
     Ok(())
 }
 
@@ -97,14 +97,13 @@ fn write(control: &mut Control, is_side: bool) -> Result<()> {
 
 /// Nothing that was said of one spindle holds for the other.
 fn forget_the_other(control: &mut Control) {
-    (control.turning, control.turned) = (None, None);
-    (control.speed, control.range) = (None, None);
+    control.spindle.switch();
     control.state.set(modal::SPINDLE, Rotation::InDoubt);
     control.state.forget(modal::GEAR, Source::Post);
     control.state.doubt(fil_machine::letters::S);
     if may_hold_surface_speed(control) {
         let limit = control.state.get(modal::SPEED_LIMIT);
-        let other = std::mem::replace(&mut control.limit_of_other, limit);
+        let other = std::mem::replace(&mut control.spindle.limit_of_other, limit);
         control.state.set_if_known(modal::SPEED_LIMIT, other, Source::NotCommanded);
     }
 }
@@ -119,7 +118,7 @@ pub fn check_tap(control: &Control, by_cycle: bool) -> Result<()> {
         return PostCode::CycleForm.err(WHICH);
     }
     let knows = control.tables.family == ControlFamily::Sinumerik;
-    if control.counts_side && by_cycle && !knows {
+    if control.spindle.is_side && by_cycle && !knows {
         return PostCode::CycleForm.err(
             "a tap of the second spindle by a cycle of the control: which spindle it turns back \
              no code says",

@@ -37,7 +37,7 @@ pub(in crate::control) fn speed_in_range(control: &Control, speed: f64) -> f64 {
         return speed;
     }
     let commons = &control.commons;
-    let open = match control.range {
+    let open = match control.spindle.range {
         Some(chosen) => chosen..chosen + 1,
         None => 0..ranges(control),
     };
@@ -84,12 +84,12 @@ pub(in crate::control) fn take_range_of(control: &mut Control, speed: f64) -> Re
         let above = control.commons.rel_opt(min).is_none_or(|min| speed >= min);
         above && control.commons.rel_opt(max).is_none_or(|max| speed <= max)
     };
-    let before = control.range.take().filter(|index| {
+    let before = control.spindle.range.take().filter(|index| {
         let code = control.code_if_any(loc::RANGE_CODES[*index]);
         code.is_some() && control.state.get(modal::GEAR) == code
     });
     let speed = within_range(control, speed);
-    control.range = before;
+    control.spindle.range = before;
     let count = ranges(control);
     let first = control.commons.int(loc::SPINDLE_DEFAULT_RANGE) - 1;
     let first = before.or(usize::try_from(first).ok()).filter(|first| *first < count);
@@ -104,7 +104,7 @@ pub(in crate::control) fn take_range_of(control: &mut Control, speed: f64) -> Re
 pub(super) fn select_range(control: &mut Control, index: usize) -> Result<()> {
     let code = control.code(loc::RANGE_CODES[index], "this spindle range")?;
     control.flush_function(Function::Spindle)?;
-    control.range = Some(index);
+    control.spindle.range = Some(index);
     control.m(code);
     control.write_block()
 }

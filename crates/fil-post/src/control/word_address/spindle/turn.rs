@@ -16,7 +16,7 @@ pub const BEHIND_STOP: &str =
 pub fn may_turn(control: &Control) -> bool {
     match control.state.rotation() {
         Rotation::Standing => waits(control),
-        Rotation::Unsaid => control.turning.is_some(),
+        Rotation::Unsaid => control.spindle.turning.is_some(),
         _ => true,
     }
 }
@@ -44,7 +44,7 @@ pub fn may_stand_behind_stop(control: &Control) -> bool {
 
 /// Why a spindle that does not turn is none for a thread or a tap.
 pub fn why_it_stands<'a>(control: &Control, usual: &'a str) -> &'a str {
-    match control.side_turns {
+    match control.spindle.side_turns {
         true => "threads and taps of the second spindle are not written, and the main one stands",
         false => usual,
     }
@@ -55,27 +55,27 @@ pub fn clockwise(control: &Control) -> Option<bool> {
     match control.state.rotation() {
         Rotation::Clockwise => Some(true),
         Rotation::Counterclockwise => Some(false),
-        Rotation::Unsaid => control.turning,
+        Rotation::Unsaid => control.spindle.turning,
         Rotation::InDoubt | Rotation::Standing => None,
     }
 }
 
 /// The same for the next motion, with what waits for it.
 pub fn clockwise_in_motion(control: &Control) -> Option<bool> {
-    if waits(control) { control.turning } else { clockwise(control) }
+    if waits(control) { control.spindle.turning } else { clockwise(control) }
 }
 
 /// Which way a record turns the spindle, and keeps it: SPINDL/ON turns it as it turned before.
 /// `None` for the code of a SPINDL that names no direction.
 pub fn take_turn(control: &mut Control, turn: &SpindleTurn) -> Option<bool> {
-    let said = turn.clockwise.or(control.turned.filter(|_| turn.speed.is_none()));
-    control.turned = said.or_else(|| usual_turn(control));
+    let said = turn.clockwise.or(control.spindle.turned.filter(|_| turn.speed.is_none()));
+    control.spindle.turned = said.or_else(|| usual_turn(control));
     said
 }
 
 /// Whether the code of a SPINDL that names no direction turns the spindle clockwise.
 fn usual_turn(control: &Control) -> Option<bool> {
-    let code = control.code_if_any(loc::SPINDLE_DEFAULT_CODE).filter(|_| !control.counts_side);
+    let code = control.code_if_any(loc::SPINDLE_DEFAULT_CODE).filter(|_| !control.spindle.is_side);
     let turns = [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE]
         .map(|at| code.is_some() && control.code_if_any(at) == code);
     match turns {
