@@ -71,9 +71,9 @@ pub fn program(nc: Text<'_>, commons: &Commons) -> Result<Drawing, Error> {
     Ok(Drawing {
         title: nc.name.to_string(),
         path: nc_trace(nc.bytes, nc.name, &dialect, &forward).map_err(Error::Run)?,
-        lathe: dialect.lathe,
+        lathe: dialect.is_lathe(),
         diameter: dialect.counts_diameters(),
-        notes: Notes { text: nc_text(nc.bytes, dialect.page), ..Notes::default() },
+        notes: Notes { text: nc_text(nc.bytes, dialect.page()), ..Notes::default() },
         ..Drawing::default()
     })
 }

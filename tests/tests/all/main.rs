@@ -45,5 +45,6 @@ mod verify_planes;
 mod verify_rotary;
 mod verify_threads;
 mod verify_ways;
+mod verify_words;
 mod wasm;
 mod windows;

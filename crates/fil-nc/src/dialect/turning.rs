@@ -3,6 +3,43 @@
 use super::Settings;
 use super::codes::CycleKind;
 
+/// Spindles and cycles of a lathe.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Turning {
+    /// The main spindle can become the axis C: whether it is one when the program begins.
+    pub(crate) live_at_start: Option<bool>,
+    /// The codes that make the main spindle an axis and a spindle again.
+    pub(crate) mode_codes: [Option<i32>; 2],
+    /// One code turns the main spindle and the live tool, whichever is in use: by clockwise,
+    /// counterclockwise and stop.
+    pub(crate) one_code: [bool; 3],
+    /// What the cycles of live tools do with pecks.
+    pub(crate) live_pecks: LivePecks,
+    /// M codes by which threading cycles leave a thread; `None` for a machine without.
+    pub(crate) way_out: Option<WayOut>,
+    /// How the control is told which spindle of a lathe it counts.
+    pub(crate) counted: Counted,
+}
+
+impl Turning {
+    pub(super) fn new(settings: &Settings) -> Self {
+        Turning {
+            live_at_start: settings
+                .code("mill_turn.milling_code")
+                .map(|_| settings.code("mill_turn.mode").is_some_and(|mode| mode != 0)),
+            mode_codes: ["milling", "turning"]
+                .map(|mode| settings.code(&format!("mill_turn.{mode}_code"))),
+            one_code: ["cw", "ccw", "stop"].map(|turn| {
+                let code = |of: &str| settings.code(&format!("{of}{turn}_code"));
+                code("mill_turn.live_") == code("spindle.")
+            }),
+            live_pecks: LivePecks::new(settings),
+            way_out: WayOut::new(settings),
+            counted: Counted::new(settings),
+        }
+    }
+}
+
 /// What the drilling cycles of live tools do with the depth of a peck.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LivePecks {
@@ -13,7 +50,7 @@ pub(crate) struct LivePecks {
 }
 
 impl LivePecks {
-    pub(super) fn new(settings: &Settings) -> Self {
+    fn new(settings: &Settings) -> Self {
         LivePecks {
             kind: match settings.code("mill_turn.peck_form") {
                 Some(1) => Some(CycleKind::Peck),
@@ -39,7 +76,7 @@ pub(crate) struct WayOut {
 }
 
 impl WayOut {
-    pub(super) fn new(settings: &Settings) -> Option<Self> {
+    fn new(settings: &Settings) -> Option<Self> {
         let code = |key| settings.code(key).and_then(|code| u32::try_from(code).ok());
         let codes = [code("thread.chamfer_on_code")?, code("thread.chamfer_off_code")?];
         let leads = settings.number("thread.chamfer_tenths").map(|tenths| tenths / 10.0);
@@ -61,7 +98,7 @@ pub(crate) struct Counted {
 }
 
 impl Counted {
-    pub(super) fn new(settings: &Settings) -> Self {
+    fn new(settings: &Settings) -> Self {
         let number = settings.code("spindle.side_number");
         Counted {
             number,

@@ -3,7 +3,7 @@
 use super::Fault;
 use super::state::{Axes, State};
 use super::words::{Words, letter};
-use crate::dialect::{CenterForm, HelixForm};
+use crate::dialect::{Amount, CenterForm, Habit, HelixForm, Role};
 use crate::errors::NcCode;
 use crate::motion::{Arc, Course, unit};
 
@@ -38,14 +38,14 @@ impl State<'_> {
     /// An arc in the plane in force.
     pub(super) fn arc(&mut self, words: &mut Words, ccw: bool) -> Result<(), Fault> {
         let rate = self.rate()?;
-        let ccw = ccw == self.dialect.right_handed[self.plane];
+        let ccw = ccw == self.dialect.forms.right_handed[self.plane];
         let axes = words.take_axes(self.dialect)?;
         let (to, known) = self.target(&axes);
         let plane = plane_axes(self.plane);
         if plane.iter().any(|axis| !self.known[*axis]) {
             return Err(Fault::new(NcCode::NoCenter, "it is not known where the arc begins"));
         }
-        let radius = words.take(self.dialect.radius)?;
+        let radius = words.take(self.dialect.letter(Role::Radius))?;
         let has_center = plane.iter().any(|axis| words.has(CENTER[*axis]));
         let radius = radius.or(self.arc_radius.filter(|_| !has_center));
         let (center, angle) = match radius {
@@ -65,13 +65,13 @@ impl State<'_> {
         (point[plane[0]], point[plane[1]]) = (center[0], center[1]);
         let arc = Arc { center: point, normal: self.plane, ccw, angle };
         self.travel((to, known), Course::Feed, Some(rate), Some(arc));
-        self.arc_radius = radius.filter(|_| self.dialect.radius_modal);
+        self.arc_radius = radius.filter(|_| self.dialect.has(Habit::RadiusModal));
         Ok(())
     }
 
     /// The word of a helix must say how far the arc rises to its end.
     fn check_helix(&self, words: &mut Words, to: &Axes, angle: f64) -> Result<(), Fault> {
-        let Some(form) = self.dialect.helix else { return Ok(()) };
+        let Some(form) = self.dialect.forms.helix else { return Ok(()) };
         let Some(given) = words.take(CENTER[self.plane])? else { return Ok(()) };
         let a_radian = (to[self.plane] - self.at[self.plane]) / angle.to_radians();
         let rise = match form {
@@ -104,7 +104,7 @@ impl State<'_> {
         }
         let start = plane.map(|axis| self.at[axis]);
         let by = given.map(|value| value.unwrap_or(0.0));
-        let center = match self.dialect.center {
+        let center = match self.dialect.forms.center {
             CenterForm::FromStart => [start[0] + by[0], start[1] + by[1]],
             CenterForm::FromCenter => [start[0] - by[0], start[1] - by[1]],
             CenterForm::Absolute => match given {
@@ -119,7 +119,7 @@ impl State<'_> {
 
     /// A coordinate of a center on an axis whose positions are moved on the tape.
     pub(super) fn moved(&self, axis: usize, center: f64) -> f64 {
-        let scale = self.dialect.scales[axis];
+        let scale = self.dialect.axes[axis].scale;
         center - scale.map_or(0.0, |scale| scale.shift) * self.unit() + self.zero[axis]
     }
 
@@ -147,7 +147,7 @@ impl State<'_> {
     /// larger steps than their last digits.
     fn radius_tolerance(&self) -> f64 {
         let of_digits = if self.metric { RADIUS_TOLERANCE } else { INCH_TOLERANCE };
-        of_digits.max(STEPS * self.dialect.steps * unit(self.metric))
+        of_digits.max(STEPS * self.dialect.amount(Amount::Steps).unwrap_or(0.0) * unit(self.metric))
     }
 
     pub(super) fn check_radii(

@@ -4,7 +4,7 @@ use super::Fault;
 use super::left_to_control::Uses;
 use super::state::State;
 use super::words::{AxisWord, Words, letter};
-use crate::dialect::{Auxiliary, FeedMode, Function, Group};
+use crate::dialect::{Amount, Auxiliary, FeedMode, Function, Group, Role};
 use crate::errors::NcCode;
 use crate::motion::{Course, Event, Modes};
 use crate::text::Block;
@@ -214,7 +214,7 @@ impl State<'_> {
     fn straight(&mut self, words: &mut Words, course: Course) -> Result<(), Fault> {
         let rate = if course == Course::Feed { Some(self.rate()?) } else { None };
         if course == Course::Rapid
-            && let Some((letter, value)) = self.dialect.rapid_word
+            && let Some((letter, value)) = self.dialect.forms.rapid_word
         {
             let word = words.take(letter)?;
             if word.is_none_or(|word| (word - value).abs() > RAPID_WORD) {
@@ -228,7 +228,7 @@ impl State<'_> {
         if let Some(angles) = leans {
             target.0[3..].copy_from_slice(&angles);
         }
-        if self.dialect.live_at_start.is_some() {
+        if self.dialect.turning.live_at_start.is_some() {
             let course = self.live_course(&target.0, course)?;
             self.go(target, course, rate.filter(|_| course == Course::Feed));
             return Ok(());
@@ -270,7 +270,8 @@ impl State<'_> {
 
     /// `G4 X1.` and `G4 U1.` of lathes wait seconds.
     fn dwell_by_x(&self, words: &mut Words) -> Result<Option<f64>, Fault> {
-        let is_usual = words.has(self.dialect.dwell) || !self.dialect.counts_diameters();
+        let is_usual =
+            words.has(self.dialect.letter(Role::Dwell)) || !self.dialect.counts_diameters();
         if is_usual || !words.has_axes(self.dialect) {
             return Ok(None);
         }
@@ -285,13 +286,14 @@ impl State<'_> {
             self.events.push(Event::Dwell { line: self.line, seconds: Some(seconds), turns: None });
             return Ok(());
         }
-        let time = words.take(self.dialect.dwell)?;
+        let time = words.take(self.dialect.letter(Role::Dwell))?;
         let time =
             time.ok_or_else(|| Fault::new(NcCode::MissingWord, "the time of the dwell is needed"))?;
         // Some controls count turns while the feed is one a revolution.
-        let turns = self.dialect.turns_factor.filter(|_| self.feed_mode == FeedMode::PerTurn);
+        let turns =
+            self.dialect.amount(Amount::DwellTurns).filter(|_| self.feed_mode == FeedMode::PerTurn);
         let turns = turns.map(|factor| time / factor);
-        let seconds = turns.is_none().then_some(time / self.dialect.dwell_factor);
+        let seconds = turns.is_none().then_some(time / self.dialect.factor(Amount::Dwell));
         self.events.push(Event::Dwell { line: self.line, seconds, turns });
         Ok(())
     }

@@ -37,7 +37,7 @@ impl State<'_> {
         std::mem::swap(&mut modes.speed, &mut other.speed);
         std::mem::swap(&mut modes.spindle_range, &mut other.range);
         std::mem::swap(&mut modes.orientation, &mut other.orientation);
-        if self.dialect.counted.has_own_limits {
+        if self.dialect.turning.counted.has_own_limits {
             std::mem::swap(&mut modes.speed_limit, &mut other.limit);
         }
         Ok(())
@@ -46,7 +46,7 @@ impl State<'_> {
     /// The codes of one spindle turn that one, counted or not.
     pub(super) fn turn_one(&mut self, side: bool, turn: Spindle) {
         let is_counted = (self.modes.counts_side == Some(true)) == side;
-        match is_counted || !self.dialect.counted.has_own_codes {
+        match is_counted || !self.dialect.turning.counted.has_own_codes {
             true => self.turn_spindle(turn),
             false => self.modes.other_spindle = turn,
         }

@@ -3,7 +3,7 @@
 use super::Fault;
 use super::state::State;
 use super::words::{AxisWord, Words, letter};
-use crate::dialect::{CycleKind, DepthForm};
+use crate::dialect::{Amount, CycleKind, DepthForm, Role};
 use crate::errors::NcCode;
 use crate::motion::{Course, Event, Spindle};
 
@@ -134,7 +134,7 @@ impl State<'_> {
         let axis = self.plane;
         let depth = axes.iter().find(|word| word.axis == axis);
         let increments = !self.absolute || depth.is_some_and(|word| word.increment);
-        let form = if increments { DepthForm::Increments } else { self.dialect.depth };
+        let form = if increments { DepthForm::Increments } else { self.dialect.forms.depth };
         if let Some(r) = words.take(R)? {
             cycle.clear = Some(match form {
                 DepthForm::Absolute => self.position(axis, r),
@@ -150,16 +150,16 @@ impl State<'_> {
                 DepthForm::Unsigned => clear - self.way(axis, word.value).abs(),
             });
         }
-        if !cycle.pecks() && words.has(self.dialect.step) {
+        if !cycle.pecks() && words.has(self.dialect.letter(Role::Step)) {
             // A tap would peck with it; of other cycles it holds for the next one that pecks.
             let message = "a depth of pecks in a cycle that does not peck";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }
-        if let Some(step) = words.take(self.dialect.step)? {
+        if let Some(step) = words.take(self.dialect.letter(Role::Step))? {
             cycle.step = Some(self.length(axis, step).abs()).filter(|step| *step > 0.0);
         }
-        if let Some(dwell) = words.take(self.dialect.cycle_dwell)? {
-            cycle.dwell = Some(dwell / self.dialect.dwell_factor);
+        if let Some(dwell) = words.take(self.dialect.letter(Role::CycleDwell))? {
+            cycle.dwell = Some(dwell / self.dialect.factor(Amount::Dwell));
         }
         Ok(())
     }

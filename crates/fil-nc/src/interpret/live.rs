@@ -9,7 +9,7 @@
 use super::Fault;
 use super::state::{Axes, State};
 use super::words::{AxisWord, Words};
-use crate::dialect::{FeedMode, Function, Group};
+use crate::dialect::{Amount, FeedMode, Function, Group};
 use crate::errors::NcCode;
 use crate::motion::{Compensation, Course, Event, Spindle};
 
@@ -59,7 +59,7 @@ impl State<'_> {
 
     /// A code of the main spindle while it is an axis: the same code may turn the live tool.
     pub(super) fn turn_main(&mut self, turn: Spindle) -> Result<(), Fault> {
-        let [clockwise, counterclockwise, stop] = self.dialect.one_code;
+        let [clockwise, counterclockwise, stop] = self.dialect.turning.one_code;
         let of_live_tool = match turn {
             Spindle::Clockwise => clockwise,
             Spindle::Counterclockwise => counterclockwise,
@@ -75,7 +75,7 @@ impl State<'_> {
 
     /// Refuses what only one of the two kinds of spindle does.
     pub(super) fn check_live(&self, words: &Words) -> Result<(), Fault> {
-        if self.dialect.live_at_start.is_none() {
+        if self.dialect.turning.live_at_start.is_none() {
             return Ok(());
         }
         let turns = self.modes.spindle != Spindle::Off;
@@ -163,7 +163,7 @@ impl State<'_> {
     }
 
     fn cylinder(&mut self, words: &mut Words) -> Result<(), Fault> {
-        let radius = words.take(self.dialect.axis_letters[C])?;
+        let radius = words.take(self.dialect.axes[C].letter)?;
         let Some(radius) = radius.map(|radius| radius * self.unit()) else {
             return refuse("cylindrical interpolation needs its radius");
         };
@@ -239,7 +239,7 @@ impl State<'_> {
             );
         }
         let feed = self.feed.map(|feed| feed * self.unit());
-        let rapid = self.dialect.polar_rapid;
+        let rapid = self.dialect.amount(Amount::PolarRapid);
         let is_rapid = feed.zip(rapid).is_some_and(|(feed, rapid)| (feed - rapid).abs() < 0.5);
         Ok(if is_rapid { Course::Rapid } else { course })
     }

@@ -8,7 +8,7 @@ use super::Fault;
 use super::cycle::{Cycle, R};
 use super::state::State;
 use super::words::{AxisWord, Words};
-use crate::dialect::CycleKind;
+use crate::dialect::{Amount, CycleKind, Role};
 use crate::errors::NcCode;
 
 fn refuse<T>(why: &str) -> Result<T, Fault> {
@@ -54,7 +54,7 @@ impl State<'_> {
                 );
             }
         }
-        if let Some(step) = words.take(self.dialect.step)? {
+        if let Some(step) = words.take(self.dialect.letter(Role::Step))? {
             self.live_peck(cycle, along, step)?;
         }
         if let Some(word) = axes.iter().find(|word| word.axis == along) {
@@ -63,8 +63,8 @@ impl State<'_> {
             }
             cycle.bottom = Some(self.position(along, word.value));
         }
-        if let Some(dwell) = words.take(self.dialect.cycle_dwell)? {
-            cycle.dwell = Some(dwell / self.dialect.dwell_factor);
+        if let Some(dwell) = words.take(self.dialect.letter(Role::CycleDwell))? {
+            cycle.dwell = Some(dwell / self.dialect.factor(Amount::Dwell));
         }
         if cycle.bottom.is_some_and(|bottom| bottom >= cycle.initial) {
             return refuse("the bottom of a hole lies above the level before the cycle");
@@ -77,7 +77,7 @@ impl State<'_> {
         if cycle.kind != CycleKind::Drill {
             return refuse("a depth of pecks in a tap of a live tool");
         }
-        let pecks = self.dialect.live_pecks;
+        let pecks = self.dialect.turning.live_pecks;
         let Some(kind) = pecks.kind else {
             return refuse(
                 "how far a peck of a live tool comes out is said by a parameter \

@@ -150,7 +150,7 @@ pub fn interpret(
     dialect: &Dialect,
     take: &mut dyn FnMut(Event),
 ) -> Result<(), Box<Diag>> {
-    let source = Source::memory(text).into_page(dialect.page);
+    let source = Source::memory(text).into_page(dialect.text.page);
     let mut running = Running::new(&source, name, dialect);
     let mut events = VecDeque::new();
     while running.more(&mut events)? {
@@ -171,7 +171,7 @@ pub fn has_skipped_blocks(
 ) -> Result<bool, Box<Diag>> {
     let mut lines = Lines::from(source, 0);
     while let Some(line) = lines.next_line().map_err(|error| cant_read(name, &error))? {
-        if program::may_be_skipped(&dialect.marks.read(line)) {
+        if program::may_be_skipped(&dialect.text.marks.read(line)) {
             return Ok(true);
         }
     }

@@ -3,7 +3,7 @@
 use super::state::State;
 use super::words::{Words, letter};
 use super::{Fault, osp_thread};
-use crate::dialect::{Auxiliary, Family, Function, Group, ToolCall};
+use crate::dialect::{Auxiliary, Family, Function, Group, Habit, Role, ToolCall};
 use crate::errors::NcCode;
 use crate::motion::{
     Compensation, DRILLED, Event, FOOT, Modes, Speed, Spindle, StartMode, WORD_OFFSETS,
@@ -69,15 +69,16 @@ impl State<'_> {
         match function {
             Some(Function::Fixture(code)) => self.fixture(code),
             Some(Function::NumberedFixture(tenths)) => {
-                let number = words.take_whole(self.dialect.fixture_number)?;
+                let number = words.take_whole(self.dialect.letter(Role::FixtureNumber))?;
                 let missing =
                     || Fault::new(NcCode::MissingWord, "the work offset needs its number");
                 self.fixture(tenths * 1000 + number.ok_or_else(missing)?);
             }
             _ => {}
         }
-        let by_word = self.dialect.fixture_word > 0 && words.peek(Group::Length).is_none();
-        if by_word && let Some(number) = words.take_whole(self.dialect.fixture_word)? {
+        let by_word =
+            self.dialect.letter(Role::FixtureWord) > 0 && words.peek(Group::Length).is_none();
+        if by_word && let Some(number) = words.take_whole(self.dialect.letter(Role::FixtureWord))? {
             if function.is_some() {
                 return Err(Fault::new(NcCode::Twice, "two work offsets in one block"));
             }
@@ -95,9 +96,9 @@ impl State<'_> {
     pub(super) fn fixture(&mut self, code: u32) {
         if self.moves_fixture(code) {
             // C of a spindle that turns counts from nothing.
-            let turns = self.dialect.live_at_start.is_some() && !self.live;
+            let turns = self.dialect.turning.live_at_start.is_some() && !self.live;
             let counts =
-                |axis: &usize| self.dialect.scales[*axis].is_some() && !(turns && *axis > 2);
+                |axis: &usize| self.dialect.axes[*axis].scale.is_some() && !(turns && *axis > 2);
             for axis in (0..5).filter(counts) {
                 self.known[axis] = false;
             }
@@ -110,7 +111,7 @@ impl State<'_> {
         if let Some(Function::Compensation(side)) = words.function(Group::Compensation) {
             let offset = match side {
                 Compensation::Off => None,
-                _ => words.take_whole(self.dialect.tool_offset)?,
+                _ => words.take_whole(self.dialect.letter(Role::ToolOffset))?,
             };
             self.compensate(side, offset)?;
         }
@@ -160,7 +161,7 @@ impl State<'_> {
             }
             self.surface = on;
             self.certain.say(StartMode::Surface);
-            let letter = self.dialect.speed_limit;
+            let letter = self.dialect.letter(Role::SpeedLimit);
             if on && letter > 0 {
                 self.modes.speed_limit = words.take(letter)?;
             }
@@ -170,7 +171,7 @@ impl State<'_> {
             self.limit_speed(words)?;
         }
         let orients = words.auxiliaries.iter().any(|(a, _)| *a == Auxiliary::Orient);
-        let orientation = match self.dialect.orientation {
+        let orientation = match self.dialect.letter(Role::Orientation) {
             letter if orients && letter > 0 => words.take(letter)?,
             _ => None,
         };
@@ -292,9 +293,9 @@ impl State<'_> {
     fn tool(&mut self, words: &mut Words) -> Result<(), Fault> {
         let named = words.take_whole(T)?;
         let changes = words.auxiliaries.iter().any(|(a, _)| *a == Auxiliary::ToolChange);
-        match (self.dialect.tool_call, named) {
+        match (self.dialect.forms.tool_call, named) {
             (ToolCall::WithOffset, Some(number)) => {
-                let (nose, number) = match self.dialect.names_noses {
+                let (nose, number) = match self.dialect.has(Habit::NamesNoses) {
                     true => (number / 10_000, number % 10_000),
                     false => (number % 100, number),
                 };
@@ -309,7 +310,7 @@ impl State<'_> {
             (ToolCall::WithCode, Some(number)) => self.next_tool = Some(number),
             (_, None) => {}
         }
-        if changes && self.dialect.tool_call == ToolCall::WithCode {
+        if changes && self.dialect.forms.tool_call == ToolCall::WithCode {
             let next = self.next_tool.take();
             let missing =
                 || Fault::new(NcCode::MissingWord, "no T word names the tool to change to");
@@ -322,14 +323,16 @@ impl State<'_> {
         let modes = Modes { cycle: self.cycle.is_some(), ..self.modes };
         self.events.push(Event::ToolChange { line: self.line, tool, modes });
         self.length_is_on = false;
-        self.modes.length_unsaid = self.dialect.calls_lengths;
+        self.modes.length_unsaid = self.dialect.has(Habit::CallsLengths);
         if self.modes.tool != tool && self.dialect.family != Family::WordAddress {
             // The change is a program of the builder, which may leave the axes elsewhere, and
             // brings the length of the tool: its tip is not where the last one was.
             self.known[..3].fill(false);
         }
         self.modes.tool = tool;
-        if self.dialect.tool_call == ToolCall::WithCode || self.dialect.family == Family::Klartext {
+        if self.dialect.forms.tool_call == ToolCall::WithCode
+            || self.dialect.family == Family::Klartext
+        {
             self.leaves_unsaid();
         }
     }

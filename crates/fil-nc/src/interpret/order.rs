@@ -3,7 +3,7 @@
 use fil_diag::Diag;
 
 use super::Fault;
-use crate::dialect::Dialect;
+use crate::dialect::{Dialect, Habit};
 use crate::errors::NcCode;
 use crate::text::Block;
 
@@ -65,7 +65,7 @@ pub(super) struct Order {
 
 impl Order {
     pub(super) fn new(dialect: &Dialect) -> Self {
-        Order { part: Part::Head, marked: false, label: None, has_end: dialect.has_end }
+        Order { part: Part::Head, marked: false, label: None, has_end: dialect.has(Habit::HasEnd) }
     }
 
     /// Takes the next line; true for a block that is to be run.

@@ -93,8 +93,8 @@ impl<'a> Program<'a> {
         };
         (self.offset, self.number) = (offset, self.number + 1);
         let line = line.strip_suffix(b"\r").unwrap_or(line);
-        let line = &*self.state.dialect.marks.read(line);
-        if self.state.dialect.skips_blocks && may_be_skipped(line) {
+        let line = &*self.state.dialect.text.marks.read(line);
+        if self.state.dialect.leaves_blocks_out() && may_be_skipped(line) {
             return Ok(true);
         }
         let placed = |refused: Refused| refused.place(name, self.number, line);

@@ -5,7 +5,7 @@ use super::counted::OtherSpindle;
 use super::cycle::Cycle;
 use super::thread::{Pass, Setup};
 use super::words::{AxisWord, Words};
-use crate::dialect::{Certain, Dialect, FeedMode, Function};
+use crate::dialect::{Amount, Certain, Dialect, FeedMode, Function, Habit};
 use crate::errors::NcCode;
 use crate::motion::{
     Arc, Compensation, Course, DRILLED, Event, Modes, Move, OtherPlane, Position, Rate, StartMode,
@@ -86,41 +86,43 @@ impl<'d> State<'d> {
         State {
             dialect,
             line: 0,
-            at: dialect.start.map(|position| position.unwrap_or(0.0)),
+            at: dialect.axes.map(|axis| axis.start.unwrap_or(0.0)),
             known: std::array::from_fn(|axis| {
-                let is_spindle = axis == 3 && dialect.live_at_start == Some(false);
-                dialect.start[axis].is_some() || dialect.scales[axis].is_none() || is_spindle
+                let is_spindle = axis == 3 && dialect.turning.live_at_start == Some(false);
+                dialect.axes[axis].start.is_some()
+                    || dialect.axes[axis].scale.is_none()
+                    || is_spindle
             }),
             zero: [0.0; 3],
             motion: None,
-            plane: dialect.plane,
-            said_plane: if dialect.lathe { dialect.plane } else { DRILLED },
+            plane: dialect.start.plane,
+            said_plane: if dialect.is_lathe() { dialect.start.plane } else { DRILLED },
             plane_line: 0,
-            metric: dialect.metric,
-            absolute: dialect.absolute,
-            feed_mode: dialect.feed_mode,
+            metric: dialect.has(Habit::Metric),
+            absolute: dialect.has(Habit::Absolute),
+            feed_mode: dialect.start.feed_mode,
             feed: None,
             arc_radius: None,
             length_is_on: false,
             compensation_rests: false,
             surface: false,
-            return_initial: dialect.return_initial,
-            certain: dialect.certain,
+            return_initial: dialect.has(Habit::ReturnsInitial),
+            certain: dialect.start.certain,
             cycle: None,
             is_called_at_each: false,
             by_direction: false,
             tilt: None,
             was_tip: false,
             aligned: false,
-            live: dialect.live_at_start == Some(true),
+            live: dialect.turning.live_at_start == Some(true),
             polar: false,
-            plane_before: dialect.plane,
+            plane_before: dialect.start.plane,
             cylinder: None,
             pass: None,
             leaves_threads: None,
             setup: None,
             next_tool: None,
-            modes: Modes { inch: !dialect.metric, ..Modes::default() },
+            modes: Modes { inch: !dialect.has(Habit::Metric), ..Modes::default() },
             other_spindle: OtherSpindle::default(),
             events: Vec::new(),
             words: Words::default(),
@@ -137,7 +139,7 @@ impl<'d> State<'d> {
     /// The plane in force on a SINUMERIK, where it is not that in which the lengths of the tool
     /// count rightly: X and Y in TRANSMIT, Z and X on a lathe, else that which the tool is square to.
     fn other_plane(&self) -> Option<OtherPlane> {
-        let is_open = self.live && !self.dialect.transforms;
+        let is_open = self.live && !self.dialect.has(Habit::Transforms);
         if !self.dialect.counts_lengths_in_plane() || is_open {
             return None;
         }
@@ -147,7 +149,7 @@ impl<'d> State<'d> {
     /// The plane in force, where it is another one than must be.
     pub(super) fn plane_but(&self, must: usize) -> Option<OtherPlane> {
         // Of a plane that neither the program nor the machine says that much is told elsewhere.
-        let is_unsaid = self.plane_line == 0 && !self.dialect.certain.has(StartMode::Plane);
+        let is_unsaid = self.plane_line == 0 && !self.dialect.start.certain.has(StartMode::Plane);
         let is_other = self.plane != must && !is_unsaid;
         is_other.then_some(OtherPlane { normal: self.plane, must, line: self.plane_line })
     }
@@ -165,21 +167,22 @@ impl<'d> State<'d> {
 
     /// Position of an axis that a value on the tape stands for.
     pub(super) fn position(&self, axis: usize, value: f64) -> f64 {
-        let scale = self.dialect.scales[axis];
+        let scale = self.dialect.axes[axis].scale;
         let zero = self.zero.get(axis).copied().unwrap_or(0.0);
         scale.map_or(value, |scale| scale.position(value)) * self.axis_unit(axis) + zero
     }
 
     /// Way of an axis that an increment on the tape stands for.
     pub(super) fn way(&self, axis: usize, value: f64) -> f64 {
-        let scale = self.dialect.scales[axis];
+        let scale = self.dialect.axes[axis].scale;
         scale.map_or(value, |scale| scale.way(value)) * self.axis_unit(axis)
     }
 
     /// A length along an axis that the tape says outside of the axis' own words, mm: diameters
     /// are of positions alone.
     pub(super) fn length(&self, axis: usize, value: f64) -> f64 {
-        let scale = self.dialect.scales[axis].filter(|scale| !(axis == 0 && scale.is_diameter()));
+        let scale =
+            self.dialect.axes[axis].scale.filter(|scale| !(axis == 0 && scale.is_diameter()));
         scale.map_or(value, |scale| scale.way(value)) * self.axis_unit(axis)
     }
 
@@ -193,7 +196,7 @@ impl<'d> State<'d> {
         for word in words {
             let word = &self.in_plane(*word);
             if self.absolute && !word.increment {
-                to[word.axis] = match self.dialect.ways_round[word.axis] {
+                to[word.axis] = match self.dialect.axes[word.axis].way_round {
                     None => self.position(word.axis, word.value),
                     Some(way) => self.turned(word.axis, word.value, way),
                 };
@@ -210,9 +213,11 @@ impl<'d> State<'d> {
         let feed = self.feed.filter(|feed| *feed > 0.0);
         let feed = feed.ok_or_else(|| Fault::new(NcCode::NoFeed, "no F word is in force"))?;
         Ok(match self.feed_mode {
-            FeedMode::PerMinute => Rate::PerMinute(feed / self.dialect.feed_factor * self.unit()),
+            FeedMode::PerMinute => {
+                Rate::PerMinute(feed / self.dialect.factor(Amount::Feed) * self.unit())
+            }
             FeedMode::PerTurn => Rate::PerTurn(feed * self.unit()),
-            FeedMode::Inverse => Rate::Inverse(feed / self.dialect.inverse_factor),
+            FeedMode::Inverse => Rate::Inverse(feed / self.dialect.factor(Amount::Inverse)),
         })
     }
 
@@ -239,13 +244,15 @@ impl<'d> State<'d> {
         self.was_tip = false;
         self.compensation_rests = false;
         let [x, y, z, primary, secondary] = to;
-        let usual = [DRILLED, self.dialect.plane].contains(&self.said_plane);
-        let is_other = !usual && !self.dialect.lathe && !self.dialect.counts_lengths_in_plane();
+        let usual = [DRILLED, self.dialect.start.plane].contains(&self.said_plane);
+        let is_other =
+            !usual && !self.dialect.is_lathe() && !self.dialect.counts_lengths_in_plane();
         let plane = is_other.then_some((self.said_plane, self.plane_line));
         let other_plane = self.other_plane().filter(|_| course != Course::Machine);
         let is_compensated = self.modes.compensation != Compensation::Off;
         let compensation_plane = is_compensated.then_some(self.plane);
-        let transformed = self.dialect.transforms && (self.polar || self.cylinder.is_some());
+        let transformed =
+            self.dialect.has(Habit::Transforms) && (self.polar || self.cylinder.is_some());
         self.events.push(Event::Move(Move {
             line: self.line,
             course,
@@ -273,7 +280,7 @@ impl<'d> State<'d> {
         if let Some(Event::Move(found)) = self.events.last_mut() {
             found.to_machine = named;
         }
-        if named[2] && self.dialect.positions_end_lengths {
+        if named[2] && self.dialect.has(Habit::PositionsEndLengths) {
             self.modes.length_offset = None;
         }
     }

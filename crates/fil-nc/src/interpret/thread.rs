@@ -3,7 +3,7 @@
 use super::Fault;
 use super::state::State;
 use super::words::{AxisWord, Words, letter};
-use crate::dialect::FeedMode;
+use crate::dialect::{FeedMode, Habit, Role};
 use crate::errors::NcCode;
 use crate::motion::{Course, Rate};
 
@@ -60,21 +60,27 @@ struct Thread {
 impl State<'_> {
     /// One pass from where the tool stands.
     pub(super) fn thread(&mut self, words: &mut Words) -> Result<(), Fault> {
-        let lead = self.lead(words, &[self.dialect.lead], None)?;
+        let lead = self.lead(words, &[self.dialect.letter(Role::Lead)], None)?;
         let axes = words.take_axes(self.dialect)?;
         let target = self.target(&axes);
-        let lead = if self.dialect.lead_along_path { lead * self.share(&target.0) } else { lead };
+        let lead = if self.dialect.has(Habit::LeadAlongPath) {
+            lead * self.share(&target.0)
+        } else {
+            lead
+        };
         self.go(target, Course::Thread, Some(Rate::PerTurn(lead)));
         Ok(())
     }
 
     /// One pass whose lead gains as much in each turn as its word says, or loses.
     pub(super) fn varying_thread(&mut self, words: &mut Words) -> Result<(), Fault> {
-        let lead = self.lead(words, &[self.dialect.lead], None)?;
-        let change = words.take(self.dialect.lead_change)?.unwrap_or(0.0) * self.unit();
+        let lead = self.lead(words, &[self.dialect.letter(Role::Lead)], None)?;
+        let change =
+            words.take(self.dialect.letter(Role::LeadChange))?.unwrap_or(0.0) * self.unit();
         let axes = words.take_axes(self.dialect)?;
         let target = self.target(&axes);
-        let share = if self.dialect.lead_along_path { self.share(&target.0) } else { 1.0 };
+        let share =
+            if self.dialect.has(Habit::LeadAlongPath) { self.share(&target.0) } else { 1.0 };
         let (lead, change) = (lead * share, change * share);
         let way = [0, 1, 2].map(|axis| (target.0[axis] - self.at[axis]).abs());
         let longest = way.into_iter().fold(0.0, f64::max);
@@ -103,7 +109,7 @@ impl State<'_> {
         in_force: Option<f64>,
     ) -> Result<f64, Fault> {
         let is_per_minute = self.feed_mode == FeedMode::PerMinute;
-        if is_per_minute && self.dialect.threads_need_turns && letters.contains(&F) {
+        if is_per_minute && self.dialect.has(Habit::ThreadsNeedTurns) && letters.contains(&F) {
             let message = "a thread under a feed a minute, where this machine needs one a turn";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }
@@ -121,9 +127,9 @@ impl State<'_> {
         let before = self.pass;
         let (lead, is_share) = self.lead_of_pass(words, before)?;
         let axes = words.take_axes(self.dialect)?;
-        let taper = match words.take(self.dialect.thread_taper)? {
+        let taper = match words.take(self.dialect.letter(Role::ThreadTaper))? {
             Some(taper) => Some(taper),
-            None => words.take(if self.dialect.thread_taper == R { I } else { R })?,
+            None => words.take(if self.dialect.letter(Role::ThreadTaper) == R { I } else { R })?,
         };
         let (x, z) = self.thread_end(&axes, before)?;
         let taper = taper.map(|taper| self.length(X, taper)).or(before.map(|pass| pass.taper));
@@ -144,7 +150,7 @@ impl State<'_> {
     ) -> Result<(f64, bool), Fault> {
         let says_lead = words.has(F);
         let lead = self.lead(words, &[F], before.map(|pass| pass.lead))?;
-        let letter = self.dialect.thread_count;
+        let letter = self.dialect.letter(Role::ThreadCount);
         if letter == 0 || !words.has(letter) {
             return Ok((lead, false));
         }
@@ -157,7 +163,7 @@ impl State<'_> {
     /// The way on which a cycle leaves a thread, in leads, where M codes switch it: that of the
     /// cycle's own word, else that of the control's parameter.
     pub(super) fn way_out(&self, said: Option<f64>) -> Result<f64, Fault> {
-        let Some(way_out) = self.dialect.way_out else { return Ok(said.unwrap_or(0.0)) };
+        let Some(way_out) = self.dialect.turning.way_out else { return Ok(said.unwrap_or(0.0)) };
         let refuse = |why: &str| Err(Fault::new(NcCode::NoMeaning, why));
         match (self.leaves_threads, said.or(way_out.leads)) {
             (Some(false), _) => Ok(0.0),
@@ -172,7 +178,9 @@ impl State<'_> {
 
     /// Takes up an M code that switches the way out of threads.
     pub(super) fn switch_way_out(&mut self, code: u32) {
-        let Some([on, off]) = self.dialect.way_out.map(|way_out| way_out.codes) else { return };
+        let Some([on, off]) = self.dialect.turning.way_out.map(|way_out| way_out.codes) else {
+            return;
+        };
         if code == on || code == off {
             self.leaves_threads = Some(code == on);
         }

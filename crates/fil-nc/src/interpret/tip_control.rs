@@ -10,7 +10,7 @@ use super::Fault;
 use super::modes::H;
 use super::state::{Axes, State};
 use super::words::Words;
-use crate::dialect::{Function, Group};
+use crate::dialect::{Function, Group, Habit};
 use crate::errors::NcCode;
 use crate::motion::Compensation;
 
@@ -41,7 +41,7 @@ impl State<'_> {
         if self.cycle.is_some() && !gives_up(Function::CycleOff) {
             return refuse(words, "tool-tip control begins while a cycle is in force");
         }
-        if !self.dialect.tip_control_anywhere {
+        if !self.dialect.has(Habit::TipControlAnywhere) {
             self.check_tables(words)?;
         }
         self.check_functions(words)
@@ -49,8 +49,8 @@ impl State<'_> {
 
     /// Where the tables stand at zero, all controls take the part alike.
     fn check_tables(&self, words: &Words) -> Result<(), Fault> {
-        for axis in (0..2).filter(|axis| self.dialect.tables[*axis]).map(|axis| axis + 3) {
-            let letter = char::from(b'@' + self.dialect.axis_letters[axis]);
+        for axis in self.dialect.tables() {
+            let letter = char::from(b'@' + self.dialect.axes[axis].letter);
             if !self.known[axis] {
                 let message =
                     format!("G43.4 needs {letter} at 0, and where it stands is not known");
@@ -139,9 +139,9 @@ impl State<'_> {
         if self.tilt.is_some() {
             return refuse("tool-tip control begins in a tilted plane");
         }
-        for axis in (0..2).filter(|axis| self.dialect.tables[*axis]).map(|axis| axis + 3) {
+        for axis in self.dialect.tables() {
             let stands = self.known[axis] && is_zero(self.at[axis]);
-            if !(stands || self.dialect.tip_control_anywhere) {
+            if !(stands || self.dialect.has(Habit::TipControlAnywhere)) {
                 return refuse(
                     "tool-tip control begins with a table away from 0, where controls differ in \
                      how the part lies, or where it stands is not known",

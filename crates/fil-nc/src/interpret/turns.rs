@@ -26,7 +26,7 @@ impl State<'_> {
         if !self.known[axis] {
             return position;
         }
-        let counts_back = self.dialect.scales[axis].is_some_and(|scale| scale.way(1.0) < 0.0);
+        let counts_back = self.dialect.axes[axis].scale.is_some_and(|scale| scale.way(1.0) < 0.0);
         let plus = match way {
             WayRound::Plus => Some(!counts_back),
             WayRound::Minus => Some(counts_back),
@@ -55,7 +55,7 @@ impl State<'_> {
         if way != Some(WayRound::Shortest) || ((to - from).abs() - 180.0).abs() > SAME {
             return Ok(());
         }
-        let letter = char::from(b'A' - 1 + self.dialect.axis_letters[axis]);
+        let letter = char::from(b'A' - 1 + self.dialect.axes[axis].letter);
         let message = format!("{letter} goes half a turn, and neither way is the shortest");
         Err(Fault::new(NcCode::NoMeaning, message))
     }
@@ -67,7 +67,7 @@ impl State<'_> {
         known: &[bool; 5],
     ) -> Result<(), Fault> {
         for axis in (3..5).filter(|axis| known[*axis] && self.known[*axis]) {
-            let way = self.dialect.ways_round[axis];
+            let way = self.dialect.axes[axis].way_round;
             self.check_way_round(axis, way, stood[axis], self.at[axis])?;
         }
         Ok(())

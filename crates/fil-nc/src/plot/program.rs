@@ -5,7 +5,7 @@ use fil_diag::Diag;
 use super::sample::{tip, tips};
 use super::trace::{Builder, is_place, tolerance};
 use super::{Extent, Stroke, Trace};
-use crate::dialect::Dialect;
+use crate::dialect::{Dialect, Habit};
 use crate::forward::Forward;
 use crate::interpret::interpret;
 use crate::motion::{Course, Event, Move, Position};
@@ -31,7 +31,7 @@ pub fn nc_trace(
     })?;
     let tolerance = tolerance(survey.extent());
     let mut builder = Builder::default();
-    builder.trace.inch = survey.inch.unwrap_or(!dialect.metric);
+    builder.trace.inch = survey.inch.unwrap_or(!dialect.has(Habit::Metric));
     let mut at = Position::default();
     interpret(text, name, dialect, &mut |event| match event {
         Event::Move(motion) => {

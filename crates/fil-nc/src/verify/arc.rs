@@ -8,6 +8,7 @@ use super::ahead::Steps;
 use super::between::Asked;
 use super::report::FindingKind;
 use super::say::{PLANES, short};
+use super::settings::Quantity;
 use super::walk::Walk;
 use super::wanted::{Arc, Step, Wanted};
 use crate::forward::Pose;
@@ -143,7 +144,7 @@ impl<C: Steps> Walk<'_, C> {
         part: &motion::Arc,
     ) -> Option<f64> {
         let given = distance(part.center, from.linear, part.normal);
-        if (given - arc.radius()).abs() > self.slack.radius {
+        if (given - arc.radius()).abs() > self.slack.of(Quantity::Radius) {
             return None;
         }
         let swept = self.angle_behind(arc, before, found) - before;
@@ -154,7 +155,7 @@ impl<C: Steps> Walk<'_, C> {
         let slack = self.slack.linear.iter().fold(0.0f64, |a, b| a.max(*b));
         let chord = distance(from.linear, found.to.linear, part.normal);
         let height = (given * given - chord * chord / 4.0).max(0.0).sqrt();
-        let rounded = given * self.slack.radius + chord * slack;
+        let rounded = given * self.slack.of(Quantity::Radius) + chord * slack;
         let along = (rounded / height).min((2.0 * rounded).sqrt());
         // The ends of a short chord turn it as they are rounded in both axes, and the center
         // with it.

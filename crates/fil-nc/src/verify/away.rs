@@ -10,6 +10,7 @@ use super::report::FindingKind;
 use super::say::short;
 use super::settings::Settings;
 use super::walk::{STILL, Walk};
+use crate::dialect::Habit;
 use crate::motion::{Course, Event, Move, Position};
 
 impl Settings<'_> {
@@ -31,7 +32,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The tool has come away from the part, or goes to it, by this motion.
     pub(super) fn leaves_or_comes(&mut self, found: &Move) {
-        if found.to_machine[2] && self.settings.dialect.positions_end_lengths {
+        if found.to_machine[2] && self.settings.dialect.has(Habit::PositionsEndLengths) {
             self.modes.length_is_taken_off();
         }
         self.is_away = match found.course {

@@ -3,6 +3,7 @@
 use super::ahead::Steps;
 use super::report::{FindingKind, Unverified};
 use super::say::short;
+use super::settings::Quantity;
 use super::walk::Walk;
 use super::wanted::{Effect, End, Step};
 use crate::dialect::Auxiliary;
@@ -24,7 +25,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         if let (Some(found), Some(wanted)) = (turns, turning) {
             let wanted = self.settings.turns_within(wanted);
-            if (found - wanted).abs() > self.slack.turns {
+            if (found - wanted).abs() > self.slack.of(Quantity::DwellTurns) {
                 let message =
                     format!("dwell of {} turns, it should be {}", short(found), short(wanted));
                 self.find(FindingKind::Dwell, Some(cl_line), Some(line), message);
@@ -47,7 +48,7 @@ impl<C: Steps> Walk<'_, C> {
         wanted: Option<f64>,
     ) {
         let agrees = match (found, wanted) {
-            (Some(found), Some(wanted)) => (found - wanted).abs() <= self.slack.dwell,
+            (Some(found), Some(wanted)) => (found - wanted).abs() <= self.slack.of(Quantity::Dwell),
             (found, wanted) => found.is_none() && wanted.is_none(),
         };
         if !agrees {

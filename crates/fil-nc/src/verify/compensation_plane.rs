@@ -37,7 +37,7 @@ impl MeantPlane {
             () if settings.dialect.counts_diameters() && !settings.written()[1] => {
                 MeantPlane::OfTurning
             }
-            () if settings.dialect.lathe || settings.arcs_change_plane() => MeantPlane::Open,
+            () if settings.dialect.is_lathe() || settings.arcs_change_plane() => MeantPlane::Open,
             () => MeantPlane::OfRecord,
         }
     }

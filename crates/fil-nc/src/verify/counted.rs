@@ -62,7 +62,7 @@ impl Counted {
 impl Expected {
     /// A record speaks of one of the spindles, which must be counted from there on.
     pub(super) fn count(&mut self, side: bool, settings: &Settings) {
-        let counted = &settings.dialect.counted;
+        let counted = &settings.dialect.turning.counted;
         if !counted.is_chosen() {
             return;
         }

@@ -8,7 +8,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::settings::Slack;
+use super::settings::Tolerances;
 use crate::forward::{Forward, Pose};
 use crate::motion::Position;
 
@@ -84,7 +84,7 @@ impl Division<'_> {
         &self,
         turning: Turning,
         at: &Position,
-        slack: &Slack,
+        slack: &Tolerances,
     ) -> Option<[f64; 2]> {
         self.shares_by(turning, at, slack, None).or_else(|| {
             let at_pole = turning != Turning::Axes && self.is_at_pole(at.rotary, slack);
@@ -98,7 +98,7 @@ impl Division<'_> {
         &self,
         turning: Turning,
         at: &Position,
-        slack: &Slack,
+        slack: &Tolerances,
         pole: Option<&Pole>,
     ) -> Option<[f64; 2]> {
         let mut share = self.first_guess(turning, at, slack);
@@ -116,7 +116,7 @@ impl Division<'_> {
         &self,
         turning: Turning,
         at: &Position,
-        (slack, pole): (&Slack, Option<&Pole>),
+        (slack, pole): (&Tolerances, Option<&Pole>),
         share: f64,
     ) -> Option<[f64; 2]> {
         let shares = [share, share - STEP, share + STEP];
@@ -153,7 +153,7 @@ impl Division<'_> {
     }
 
     /// A share to begin with: of the turn or of the way, whichever the last digits say better.
-    fn first_guess(&self, turning: Turning, at: &Position, slack: &Slack) -> f64 {
+    fn first_guess(&self, turning: Turning, at: &Position, slack: &Tolerances) -> f64 {
         let [from, to] = &self.ends;
         let way = to.pose.tip - from.pose.tip;
         let tip = self.forward.pose(at).tip;
@@ -176,7 +176,7 @@ impl Division<'_> {
     }
 
     /// The tool lies along an axis that turns it so little that any position of it will do.
-    fn is_at_pole(&self, at: [f64; 2], slack: &Slack) -> bool {
+    fn is_at_pole(&self, at: [f64; 2], slack: &Tolerances) -> bool {
         let least = POLE * (slack.rotary[0] + slack.rotary[1]).to_radians();
         let turned = |n: usize| {
             let mut by_a_degree = at;
@@ -187,7 +187,7 @@ impl Division<'_> {
     }
 
     /// What the last digits of the rotary axes do there.
-    fn digits_at_pole(&self, at: &Position, slack: &Slack) -> Pole {
+    fn digits_at_pole(&self, at: &Position, slack: &Tolerances) -> Pole {
         let [from, to] = &self.ends;
         let tip = self.forward.pose(at).tip;
         let mut linear = [0.0; 3];

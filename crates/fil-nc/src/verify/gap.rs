@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::settings::{Settings, Slack};
+use super::settings::{Settings, Tolerances};
 use super::walk::STILL;
 use crate::forward::Pose;
 use crate::motion::Position;
@@ -42,7 +42,7 @@ impl Gap {
     /// tape shows only the rounded one.
     pub(super) fn of(
         settings: &Settings,
-        slack: &Slack,
+        slack: &Tolerances,
         at: &Position,
         pose: &Pose,
         last: [f64; 2],
@@ -79,7 +79,7 @@ impl Gap {
     }
 
     /// The gap of a machine of three axes along its tool: X, Y, Z are the tip.
-    fn upright(slack: &Slack, at: &Position, pose: &Pose) -> Gap {
+    fn upright(slack: &Tolerances, at: &Position, pose: &Pose) -> Gap {
         let (mut linear, mut excess) = ([0.0; 3], [false; 3]);
         for n in 0..3 {
             let wanted = pose.tip[n];
@@ -93,7 +93,7 @@ impl Gap {
     /// The gap of a tool of a mill-turn machine: C stands where the tape has it, and X, Y and
     /// Z are compared there. What rounding of C leaves across the tool no axis can make good
     /// where the machine has no Y.
-    fn of_live_tool(settings: &Settings, slack: &Slack, at: &Position, pose: &Pose) -> Gap {
+    fn of_live_tool(settings: &Settings, slack: &Tolerances, at: &Position, pose: &Pose) -> Gap {
         let forward = settings.forward.with_tool_for(pose.axis);
         let stands = forward.pose(at);
         let radius = libm::hypot(pose.tip.x, pose.tip.y);
@@ -122,7 +122,13 @@ impl Gap {
     }
 
     /// The gap when these are the exact rotary positions.
-    fn at(settings: &Settings, slack: &Slack, at: &Position, pose: &Pose, exact: [f64; 2]) -> Gap {
+    fn at(
+        settings: &Settings,
+        slack: &Tolerances,
+        at: &Position,
+        pose: &Pose,
+        exact: [f64; 2],
+    ) -> Gap {
         let forward = &settings.forward;
         let stands = forward.pose(at);
         let same = stands.axis == pose.axis && exact == at.rotary;
@@ -147,7 +153,7 @@ impl Gap {
     }
 
     /// Compares X, Y, Z with where they should be at the rotary positions found.
-    fn compare(&mut self, settings: &Settings, slack: &Slack, at: &Position, pose: &Pose) {
+    fn compare(&mut self, settings: &Settings, slack: &Tolerances, at: &Position, pose: &Pose) {
         let exact = Position { rotary: self.rotary, ..*at };
         let wanted = settings.forward.frame_of(&exact).linear(pose.tip);
         for (n, wanted) in wanted.into_iter().enumerate() {
@@ -164,7 +170,12 @@ impl Gap {
 
 /// A tool axis that all but lies along the primary rotary axis leaves open which way it
 /// leans: the angle it leans by widens what is allowed, of X, Y, Z where they follow it.
-fn beside_the_pole(settings: &Settings, slack: &Slack, at: &Position, pose: &Pose) -> Slack {
+fn beside_the_pole(
+    settings: &Settings,
+    slack: &Tolerances,
+    at: &Position,
+    pose: &Pose,
+) -> Tolerances {
     let mut slack = *slack;
     let Some(primary) = &settings.forward.rotaries()[0] else { return slack };
     let lean = primary.direction.cross(&pose.axis).norm();

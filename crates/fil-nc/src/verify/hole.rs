@@ -6,6 +6,7 @@ use super::ahead::Steps;
 use super::hole_tip::FromHole;
 use super::report::FindingKind;
 use super::say::short;
+use super::settings::Quantity;
 use super::walk::{STILL, Walk};
 use super::wanted::Hole;
 use crate::forward::Pose;
@@ -176,7 +177,7 @@ impl<C: Steps> Walk<'_, C> {
         let in_cycle = self.next_move().is_some_and(|found| found.in_cycle);
         for depth in self.depths(hole, levels, in_cycle) {
             if let Some(reached) = reached {
-                if in_cycle && (reached - levels.bottom).abs() <= self.slack.cycle {
+                if in_cycle && (reached - levels.bottom).abs() <= self.slack.of(Quantity::Cycle) {
                     // The last peck of the tape is the bottom, to the last digit.
                     break;
                 }
@@ -338,7 +339,7 @@ impl<C: Steps> Walk<'_, C> {
         let Some(back) = self.next_move() else { return Ok(()) };
         self.vertical(&back)?;
         // In a cycle the last peck and the way back to it are rounded each by itself.
-        let of_cycle = if back.in_cycle { self.slack.cycle } else { 0.0 };
+        let of_cycle = if back.in_cycle { self.slack.of(Quantity::Cycle) } else { 0.0 };
         let slack = self.slack.linear[2].max(of_cycle);
         let gap = back.to.linear[2] - reached;
         // How far a control comes back by itself is a parameter of it, or a word of its cycle.

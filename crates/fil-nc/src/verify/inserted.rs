@@ -6,7 +6,7 @@ use super::lag::Lag;
 use super::modes::Expected;
 use super::settings::{Due, Settings};
 use super::walk::Walk;
-use crate::dialect::{Auxiliary, Function};
+use crate::dialect::{Auxiliary, Function, Role};
 use crate::interpret::sinumerik_words::{self, Value};
 use crate::motion::{Compensation, Speed, Spindle};
 use crate::text::{Block, read_block};
@@ -30,7 +30,7 @@ impl Expected {
     /// Takes up what the words of a text switch; of a text that can't be read the program
     /// is refused anyway.
     pub(super) fn insert(&mut self, text: &str, settings: &Settings) {
-        let line = settings.dialect.marks.read(text.as_bytes());
+        let line = settings.dialect.text.marks.read(text.as_bytes());
         if settings.has_edges() {
             self.insert_statements(&line);
         }
@@ -108,11 +108,11 @@ impl Expected {
         match function {
             Function::Fixture(code) => self.fixture = Some(Some(code)),
             Function::NumberedFixture(tenths) => {
-                let number = whole(printed(settings.dialect.fixture_number));
+                let number = whole(printed(settings.dialect.letter(Role::FixtureNumber)));
                 self.fixture = number.map(|number| Some(tenths * 1000 + number));
             }
             Function::Compensation(side) => {
-                let offset = whole(printed(settings.dialect.tool_offset));
+                let offset = whole(printed(settings.dialect.letter(Role::ToolOffset)));
                 let offset = offset.filter(|_| side != Compensation::Off);
                 self.compensation.set((side, offset), Due::Now);
             }

@@ -220,7 +220,7 @@ impl<C: Steps> Walk<'_, C> {
         self.pass_own();
         let slack = self.slack.rotary[index];
         let within_a_turn =
-            self.settings.dialect.ways_round[index + 3].is_some() || way != TableWay::Number;
+            self.settings.dialect.axes[index + 3].way_round.is_some() || way != TableWay::Number;
         // The control counts within one turn, and the way to a position may lead past 0.
         let near = |at: &Position| match within_a_turn {
             true => angle + 360.0 * ((at.rotary[index] - angle) / 360.0).round(),

@@ -64,6 +64,7 @@ use fil_cl::Reader;
 use fil_diag::Diag;
 use fil_machine::{Commons, Unit};
 
+use crate::dialect::Habit;
 use crate::errors::NcCode;
 use crate::events::Events;
 use crate::motion::work_offset;
@@ -72,10 +73,10 @@ use between::Watch;
 use blocks::OwnBlocks;
 
 pub use between::{Between, Peak};
-pub use cl_path::{ClPath, FrameWords};
+pub use cl_path::{ClPath, FrameWords, ignored_words, knows_word};
 pub use programs::{Programs, Unfollowed, compare_programs, compare_words};
 pub use report::{Deviation, Finding, FindingKind, Report, Unverified, Verdict};
-pub use settings::{Due, Settings, Slack};
+pub use settings::{Due, Quantity, Settings, Tolerances};
 pub use wanted::{Arc, CoolantKind, Effect, End, Hole, Step, Wanted, WholeThread};
 
 /// The inputs of a back-check.
@@ -125,10 +126,10 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let path = path.on_machine(settings.shift_along(), settings.matrix_leaves_axis());
     let path = path.with_frame_words(settings.frame_words());
     let path = path.clear_of_threads_by(settings.thread_clearance());
-    let path = path.naming_tools(settings.dialect.names_tools);
+    let path = path.naming_tools(settings.dialect.has(Habit::NamesTools));
     let path = path.in_unit(check.unit).leaving_out(check.skips_blocks);
     let nc = (check.nc, check.nc_name);
-    let (around, marks) = (settings.blocks_around_changes(), &settings.dialect.marks);
+    let (around, marks) = (settings.blocks_around_changes(), &settings.dialect.text.marks);
     let own = OwnBlocks::new(nc, marks, &settings.own_blocks(), &around)?;
     let watch = Watch::new(check.allowed.between);
     let mut walk = walk::Walk::new(path, check.events, own, &settings, watch);

@@ -153,7 +153,7 @@ impl Expected {
                 self.turn_spindle(*turn, settings);
             }
             Wanted::Counts(side) => self.count(*side, settings),
-            Wanted::OfSide(wanted) if settings.dialect.counted.is_chosen() => {
+            Wanted::OfSide(wanted) if settings.dialect.turning.counted.is_chosen() => {
                 self.take(wanted, settings);
             }
             Wanted::SpindleAgain => self.turn_spindle(self.last_turn, settings),
@@ -243,7 +243,7 @@ impl Expected {
                 }
                 // The code of the main spindle stops no live tool that has its own.
                 let of_main =
-                    self.mills && settings.is_mill_turn() && !settings.dialect.one_code[2];
+                    self.mills && settings.is_mill_turn() && !settings.dialect.turning.one_code[2];
                 if !(of_main && auxiliary == Auxiliary::SpindleOff) {
                     self.insert_auxiliary(auxiliary);
                 }

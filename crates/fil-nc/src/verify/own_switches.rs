@@ -12,7 +12,7 @@ use super::modes::Expected;
 use super::settings::{Due, Settings};
 use super::walk::{LOOK_AHEAD, Walk};
 use super::wanted::Wanted;
-use crate::dialect::{Auxiliary, Function, SKIP};
+use crate::dialect::{Auxiliary, Function, Numbered, SKIP};
 use crate::interpret::sinumerik_words::{self, Value};
 use crate::motion::{Event, Spindle};
 use crate::text::read_block;
@@ -108,7 +108,7 @@ impl<C: Steps> Walk<'_, C> {
     /// Takes up blocks of the settings.
     pub(super) fn take_blocks(&mut self, blocks: &[String]) {
         for block in blocks {
-            let line = self.settings.dialect.marks.read(block.as_bytes());
+            let line = self.settings.dialect.text.marks.read(block.as_bytes());
             let is_skipped = line.trim_ascii_start().first() == Some(&SKIP);
             if !(is_skipped && self.switches.leaves_out) {
                 self.modes.take_block(&line, self.settings);
@@ -191,7 +191,7 @@ fn of_word_address(line: &[u8], settings: &Settings) -> Vec<(u8, f64)> {
 }
 
 fn of_sinumerik(line: &[u8], settings: &Settings) -> Vec<(u8, f64)> {
-    let index = settings.dialect.spindle_index.map(|index| index.to_string());
+    let index = settings.dialect.number(Numbered::Spindle).map(|index| index.to_string());
     let words = sinumerik_words::read(line).unwrap_or_default();
     let switch = |word: &sinumerik_words::Word| {
         let Some(Value::Number(value)) = word.value else { return None };

@@ -5,9 +5,10 @@ use nalgebra::Vector3;
 use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::{short, spell_rate};
+use super::settings::Quantity;
 use super::walk::Walk;
 use super::wanted::Hole;
-use crate::dialect::Family;
+use crate::dialect::{Amount, Family, Habit};
 use crate::motion::{Compensation, Course, Move, Position, Rate, Speed, unit};
 
 /// Share of a lead, or of a feed by its pitch, that rounding may change.
@@ -42,7 +43,7 @@ impl<C: Steps> Walk<'_, C> {
         };
         let agrees = match (wanted, found.rate) {
             (Rate::PerMinute(a), Some(Rate::PerMinute(b))) => {
-                (a - b).abs() <= self.slack.feed + a * self.share_slack(&from, found)
+                (a - b).abs() <= self.slack.of(Quantity::Feed) + a * self.share_slack(&from, found)
             }
             (Rate::PerTurn(a), Some(Rate::PerTurn(b))) => {
                 (a - b).abs() <= self.slack_of_pass(found, a)
@@ -53,14 +54,15 @@ impl<C: Steps> Walk<'_, C> {
             }
             // A control that is told the pitch goes as fast as the spindle turns.
             (Rate::PerMinute(a), Some(Rate::PerTurn(b))) if found.course == Course::Thread => {
-                let agrees = |speed: f64| (a - b * speed).abs() <= self.slack.feed + PITCH * a;
+                let agrees =
+                    |speed: f64| (a - b * speed).abs() <= self.slack.of(Quantity::Feed) + PITCH * a;
                 found.modes.speed.and_then(Speed::turns).is_some_and(agrees)
             }
             // A cycle that knows feeds a minute only is told one at the speed of the spindle.
             (Rate::PerTurn(a), Some(Rate::PerMinute(b)))
                 if self.settings.feeds_holes_a_minute() || self.taps_by_a_live_tool(found) =>
             {
-                let agrees = |speed: f64| (a * speed - b).abs() <= self.slack.feed;
+                let agrees = |speed: f64| (a * speed - b).abs() <= self.slack.of(Quantity::Feed);
                 found.modes.speed.and_then(Speed::turns).is_some_and(agrees)
             }
             (Rate::PerMinute(rate), Some(Rate::Inverse(inverse))) => {
@@ -139,11 +141,15 @@ impl<C: Steps> Walk<'_, C> {
         let Some(feed) = self.repeated_feed else { return false };
         match rate {
             Rate::PerMinute(rate) => {
-                (rate - feed / dialect.feed_factor * unit).abs() <= self.slack.feed
+                (rate - feed / dialect.factor(Amount::Feed) * unit).abs()
+                    <= self.slack.of(Quantity::Feed)
             }
-            Rate::PerTurn(rate) => (rate - feed * unit).abs() <= self.slack.turn,
+            Rate::PerTurn(rate) => {
+                (rate - feed * unit).abs() <= self.slack.of(Quantity::FeedPerTurn)
+            }
             Rate::Inverse(rate) => {
-                (rate - feed / dialect.inverse_factor).abs() <= self.slack.inverse
+                (rate - feed / dialect.factor(Amount::Inverse)).abs()
+                    <= self.slack.of(Quantity::InverseTime)
             }
             Rate::Varying(..) => false,
         }
@@ -161,15 +167,15 @@ impl<C: Steps> Walk<'_, C> {
         let by_letters = self.settings.dialect.family == Family::WordAddress;
         match found.course {
             Course::Thread if found.in_cycle && !by_letters => PITCH * lead,
-            Course::Thread => self.slack.lead,
-            _ => self.slack.turn,
+            Course::Thread => self.slack.of(Quantity::Lead),
+            _ => self.slack.of(Quantity::FeedPerTurn),
         }
     }
 
     /// How far the lead of a pass may be off: a cycle that says it in a word of its own has other
     /// digits than the address, and along the path the rounded ends of the pass change it, too.
     pub(super) fn slack_of_pass(&self, pass: &Move, lead: f64) -> f64 {
-        let along_path = self.settings.dialect.lead_along_path;
+        let along_path = self.settings.dialect.has(Habit::LeadAlongPath);
         let share = if along_path { PITCH * lead } else { 0.0 };
         share + self.slack_of_lead(pass, lead)
     }
@@ -204,7 +210,7 @@ impl<C: Steps> Walk<'_, C> {
         inverse: f64,
     ) {
         let [straight, way] = self.lengths(from, found);
-        let slack = self.slack.inverse;
+        let slack = self.slack.of(Quantity::InverseTime);
         let turned = turned(&from, found);
         let alone = from.linear == found.to.linear;
         // F counts the way before its ends were rounded.
@@ -252,7 +258,7 @@ impl<C: Steps> Walk<'_, C> {
         };
         let must = self.settings.inverse_within(1.0 / time);
         let digits = 2.0 * self.slack.rotary[0].max(self.slack.rotary[1]);
-        (inverse - must).abs() <= self.slack.inverse + must * digits / most
+        (inverse - must).abs() <= self.slack.of(Quantity::InverseTime) + must * digits / most
     }
 
     /// How much longer or shorter an arc may be by its rounded center, mm: a center that is off
@@ -281,7 +287,7 @@ impl<C: Steps> Walk<'_, C> {
         // Angles of a direction that is written as a vector are not those of the program.
         let digits = 2.0 * self.slack.rotary[0].max(self.slack.rotary[1])
             + self.settings.turn_by_rounding([from, &found.to]);
-        let slack = self.slack.inverse + must * digits / turned[0].max(turned[1]);
+        let slack = self.slack.of(Quantity::InverseTime) + must * digits / turned[0].max(turned[1]);
         if (inverse - must).abs() > slack {
             let message = format!(
                 "feed {} blocks a minute, it should be {}, as long as the turn takes at least",
@@ -312,7 +318,7 @@ impl<C: Steps> Walk<'_, C> {
             let time =
                 self.settings.turning_time(way / rate, turned, from.linear == found.to.linear);
             let expected = self.settings.feed_within(counted / time, self.metric);
-            (feed - expected).abs() <= self.slack.feed
+            (feed - expected).abs() <= self.slack.of(Quantity::Feed)
         })
     }
 

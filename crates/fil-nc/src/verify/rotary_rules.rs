@@ -42,7 +42,7 @@ impl Settings<'_> {
     /// one, with rules of its own.
     pub(super) fn rotary_rules(&self) -> RotaryRules {
         let is_one_way = |n: usize| {
-            let way = self.dialect.ways_round[n + 3];
+            let way = self.dialect.axes[n + 3].way_round;
             way.is_some_and(|way| way != WayRound::Shortest)
         };
         RotaryRules {

@@ -16,7 +16,7 @@ use super::modes::Expected;
 use super::own_switches::OwnSwitches;
 use super::report::{Finding, FindingKind, Report};
 use super::say::Shape;
-use super::settings::{Settings, Slack};
+use super::settings::{Settings, Tolerances};
 use super::sift::{Beside, Sift};
 use super::thread_turns::Turns;
 use super::wanted::{Step, Wanted};
@@ -46,7 +46,7 @@ pub(super) struct Walk<'a, C> {
     pub(super) switches: OwnSwitches,
     pub(super) auxiliaries: Auxiliaries,
     pub(super) settings: &'a Settings<'a>,
-    pub(super) slack: Slack,
+    pub(super) slack: Tolerances,
     pub(super) metric: bool,
     /// Diameter of the cutter, mm.
     pub(super) cutter: Option<f64>,
@@ -274,7 +274,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::Words(text) => self.ask_words(step.line, text),
             Wanted::WholeThread(thread) => self.whole_thread(step.line, thread),
             // Which spindle is counted, and how it turns, the modes of the motions say.
-            Wanted::SideSpindle(_) if self.settings.dialect.counted.is_chosen() => {}
+            Wanted::SideSpindle(_) if self.settings.dialect.turning.counted.is_chosen() => {}
             Wanted::SideSpindle(turn) => {
                 self.ask_auxiliary(step.line, self.settings.side_spindle_code(*turn));
             }

@@ -105,7 +105,7 @@ impl<'a> Program<'a> {
         let placed = |fault: Fault| fault.place(name, self.number, text);
         let line = Line::read(text).map_err(placed)?;
         if !line.continues {
-            self.leaves_out = line.skipped && self.control.state.dialect.skips_blocks;
+            self.leaves_out = line.skipped && self.control.state.dialect.leaves_blocks_out();
         }
         if self.leaves_out {
             return Ok(true);

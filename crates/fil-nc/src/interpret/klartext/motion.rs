@@ -4,7 +4,7 @@ use super::super::Fault;
 use super::super::arc::sweep;
 use super::line::Word;
 use super::{After, Klartext};
-use crate::dialect::FeedMode;
+use crate::dialect::{Amount, FeedMode};
 use crate::errors::NcCode;
 use crate::motion::{Arc, Compensation, Course, Rate};
 
@@ -219,7 +219,7 @@ impl Klartext<'_> {
     /// What a feed a minute of a cycle stands for: it counts as F does.
     pub(super) fn rate_of(&self, feed: f64) -> Rate {
         let tenths = if self.state.metric { 1.0 } else { TENTHS };
-        Rate::PerMinute(feed / self.state.dialect.feed_factor * tenths * self.state.unit())
+        Rate::PerMinute(feed / self.state.dialect.factor(Amount::Feed) * tenths * self.state.unit())
     }
 
     fn target(&self, said: &Said) -> ([f64; 5], [bool; 5]) {

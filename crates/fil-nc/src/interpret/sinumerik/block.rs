@@ -5,7 +5,7 @@ use super::super::left_to_control::Uses;
 use super::functions::{Function, function};
 use super::line::{Value, Word};
 use super::{Part, Sinumerik};
-use crate::dialect::{Auxiliary, FeedMode, ToolCall, WayRound};
+use crate::dialect::{Auxiliary, FeedMode, Habit, Numbered, ToolCall, WayRound};
 use crate::errors::NcCode;
 use crate::motion::{Event, FOOT, Speed, Spindle, StartMode};
 
@@ -28,9 +28,15 @@ pub(super) struct Said {
     /// CR.
     pub(super) radius: Option<f64>,
     pub(super) feed: Option<f64>,
-    speed: Option<f64>,
+    spindle: SpindleWords,
     tool: Option<u32>,
     edge: Option<u32>,
+}
+
+/// What a block says of the spindle.
+#[derive(Default)]
+struct SpindleWords {
+    speed: Option<f64>,
     /// SPOS, degrees.
     position: Option<f64>,
     limit: Option<f64>,
@@ -59,7 +65,7 @@ impl Sinumerik<'_> {
         }
         self.uses = Uses {
             positions: said.axes.iter().flatten().any(|(_, absolute)| absolute.is_none()),
-            speed: said.speed.is_some(),
+            speed: said.spindle.speed.is_some(),
         };
         if matches!(said.has(3), Some(Function::Compensation(side)) if side != crate::motion::Compensation::Off)
         {
@@ -143,7 +149,7 @@ impl Sinumerik<'_> {
                 Ok(())
             };
         }
-        let spindle = self.state.dialect.spindle_index.map(|index| index.to_string());
+        let spindle = self.state.dialect.number(Numbered::Spindle).map(|index| index.to_string());
         let of_spindle = |letter: &str| {
             word.name == letter
                 || spindle.as_ref().is_some_and(|index| word.name == format!("{letter}{index}"))
@@ -168,21 +174,21 @@ impl Sinumerik<'_> {
                 return if said.edge.replace(edge).is_some() { Err(twice()) } else { Ok(()) };
             }
             _ if of_spindle("M") => return self.auxiliary(word, value, said),
-            _ if of_spindle("S") => &mut said.speed,
+            _ if of_spindle("S") => &mut said.spindle.speed,
             "F" => &mut said.feed,
             "A3" if word.assigned => &mut said.direction[0],
             "B3" if word.assigned => &mut said.direction[1],
             "C3" if word.assigned => &mut said.direction[2],
             "CR" => &mut said.radius,
-            "LIMS" => &mut said.limit,
+            "LIMS" => &mut said.spindle.limit,
             "TURN" if self.number(word, value)? == 0.0 => return Ok(()),
-            "SPOS" | "SPOSA" | "SPOS[1]" | "SPOSA[1]" => &mut said.position,
+            "SPOS" | "SPOSA" | "SPOS[1]" | "SPOSA[1]" => &mut said.spindle.position,
             name if parameter(name).is_some() && word.assigned => {
                 let number = self.number(word, value)?;
                 self.parameters.extend(parameter(name).map(|name| (name, number)));
                 return Ok(());
             }
-            name if name.starts_with("SPOS[") => &mut said.position,
+            name if name.starts_with("SPOS[") => &mut said.spindle.position,
             "CTOL" | "ADIS" | "ADISPOS" => {
                 self.controls_path();
                 return Ok(());
@@ -246,7 +252,7 @@ impl Sinumerik<'_> {
 
     /// X of the machine's programs is a diameter.
     fn writes_diameters(&self) -> bool {
-        self.state.dialect.scales[0].is_some_and(|x| x.way(2.0) == 1.0)
+        self.state.dialect.axes[0].scale.is_some_and(|x| x.way(2.0) == 1.0)
     }
 
     /// X is a diameter now.
@@ -256,7 +262,8 @@ impl Sinumerik<'_> {
 
     /// Live tools mill in transformations, and tap along X, by lengths of radius.
     fn may_count_radii(&self) -> bool {
-        self.state.dialect.transforms || self.state.dialect.live_spindle.is_some()
+        self.state.dialect.has(Habit::Transforms)
+            || self.state.dialect.number(Numbered::LiveSpindle).is_some()
     }
 
     fn function(&mut self, word: &Word, value: &Value, said: &mut Said) -> Result<(), Fault> {
@@ -363,7 +370,7 @@ impl Sinumerik<'_> {
 
     fn tool(&mut self, said: &Said) -> Result<(), Fault> {
         let changes = said.auxiliaries.contains(&Auxiliary::ToolChange);
-        let at_once = self.state.dialect.tool_call != ToolCall::WithCode;
+        let at_once = self.state.dialect.forms.tool_call != ToolCall::WithCode;
         if at_once && let Some(tool) = said.tool {
             self.change(tool);
         } else if said.tool.is_some() {
@@ -390,13 +397,13 @@ impl Sinumerik<'_> {
     fn spindle(&mut self, said: &Said) {
         let dwells = said.has(8) == Some(Function::Dwell);
         let state = &mut self.state;
-        if let Some(speed) = said.speed.filter(|_| !dwells) {
+        if let Some(speed) = said.spindle.speed.filter(|_| !dwells) {
             state.modes.speed = Some(match state.surface {
                 true => Speed::Surface(speed * if state.metric { 1.0 } else { FOOT }),
                 false => Speed::Turns(speed),
             });
         }
-        state.modes.speed_limit = said.limit.or(state.modes.speed_limit);
+        state.modes.speed_limit = said.spindle.limit.or(state.modes.speed_limit);
         for auxiliary in &said.auxiliaries {
             match auxiliary {
                 Auxiliary::Clockwise => state.turn_spindle(Spindle::Clockwise),
@@ -410,15 +417,15 @@ impl Sinumerik<'_> {
                 _ => {}
             }
         }
-        if said.position.is_some() {
+        if said.spindle.position.is_some() {
             state.turn_spindle(Spindle::Off);
-            state.modes.orientation = said.position;
+            state.modes.orientation = said.spindle.position;
         }
     }
 
     /// `G4 F1.5` seconds, `G4 S30` turns: neither is a feed or a speed from then on.
     fn dwell(&mut self, said: &Said) -> Result<(), Fault> {
-        let (seconds, turns) = match (said.feed, said.speed) {
+        let (seconds, turns) = match (said.feed, said.spindle.speed) {
             (Some(seconds), None) => (Some(seconds), None),
             (None, Some(turns)) => (None, Some(turns)),
             _ => {

@@ -23,7 +23,7 @@ use super::left_to_control::Uses;
 use super::program::may_be_skipped;
 use super::state::State;
 use super::{Fault, cant_read};
-use crate::dialect::Dialect;
+use crate::dialect::{Dialect, Habit, Numbered};
 use crate::errors::NcCode;
 use crate::motion::{Event, StartMode};
 use crate::source::{Lines, Source};
@@ -102,7 +102,7 @@ impl<'a> Program<'a> {
             parameters: BTreeMap::new(),
             called: None,
             shift: [0.0; 3],
-            metric_feed: dialect.metric,
+            metric_feed: dialect.has(Habit::Metric),
             lead_shrinks: false,
             rigid_tap_lead: None,
             counts_radii: false,
@@ -123,7 +123,7 @@ impl<'a> Program<'a> {
         let dialect = self.control.state.dialect;
         let line = self.lines.next_line().map_err(|error| cant_read(name, &error))?;
         let Some(text) = line else {
-            if self.control.part != Part::Body || !dialect.has_end {
+            if self.control.part != Part::Body || !dialect.has(Habit::HasEnd) {
                 return Ok(false);
             }
             let cut_off = Diag::new(NcCode::CutOff, "no end code was found");
@@ -131,8 +131,8 @@ impl<'a> Program<'a> {
         };
         self.number += 1;
         let text = text.strip_suffix(b"\r").unwrap_or(text);
-        let text = &*dialect.marks.read(text);
-        let left_out = dialect.skips_blocks && may_be_skipped(text);
+        let text = &*dialect.text.marks.read(text);
+        let left_out = dialect.leaves_blocks_out() && may_be_skipped(text);
         if left_out || text.trim_ascii().is_empty() {
             return Ok(true);
         }
@@ -236,7 +236,7 @@ impl Sinumerik<'_> {
             };
             shift[axis] += self.number(word, value)? * self.state.unit();
         }
-        if self.state.dialect.translates {
+        if self.state.dialect.has(Habit::Translates) {
             (self.shift, self.state.zero) = (shift, shift);
             return Ok(());
         }
@@ -254,8 +254,11 @@ impl Sinumerik<'_> {
     fn axis(&self, name: &str) -> Option<usize> {
         let letter = name.bytes().next().filter(u8::is_ascii_uppercase)?;
         let axis = self.state.dialect.axis(letter - b'A' + 1)?;
-        let index =
-            if axis < 3 { self.state.dialect.axis_index } else { self.state.dialect.rotary_index };
+        let index = if axis < 3 {
+            self.state.dialect.number(Numbered::Linear)
+        } else {
+            self.state.dialect.number(Numbered::Rotary)
+        };
         let named = index.is_some_and(|index| name[1..] == index.to_string());
         (name.len() == 1 || named).then_some(axis)
     }

@@ -4,7 +4,7 @@ use super::super::Fault;
 use super::super::arc::{plane_axes, sweep};
 use super::Sinumerik;
 use super::block::Said;
-use crate::dialect::{FeedMode, Function};
+use crate::dialect::{Amount, FeedMode, Function};
 use crate::errors::NcCode;
 use crate::motion::{Arc, Course, Rate, unit};
 
@@ -111,9 +111,9 @@ impl Sinumerik<'_> {
     pub(super) fn rate_of(&self, feed: f64) -> Rate {
         let (dialect, unit) = (self.state.dialect, unit(self.metric_feed));
         match self.state.feed_mode {
-            FeedMode::PerMinute => Rate::PerMinute(feed / dialect.feed_factor * unit),
+            FeedMode::PerMinute => Rate::PerMinute(feed / dialect.factor(Amount::Feed) * unit),
             FeedMode::PerTurn => Rate::PerTurn(feed * unit),
-            FeedMode::Inverse => Rate::Inverse(feed / dialect.inverse_factor),
+            FeedMode::Inverse => Rate::Inverse(feed / dialect.factor(Amount::Inverse)),
         }
     }
 
@@ -151,7 +151,7 @@ impl Sinumerik<'_> {
     fn arc(&mut self, said: &Said, ccw: bool) -> Result<(), Fault> {
         let rate = self.rate()?;
         let normal = self.state.plane;
-        let ccw = ccw == self.state.dialect.right_handed[normal];
+        let ccw = ccw == self.state.dialect.forms.right_handed[normal];
         let plane = plane_axes(normal);
         let (to, known) = self.target(said);
         self.check_live_arc(normal, to[2] != self.state.at[2])?;

@@ -9,7 +9,7 @@ use super::super::Fault;
 use super::Sinumerik;
 use super::block::Said;
 use super::line::{Value, Word};
-use crate::dialect::{FeedMode, Function};
+use crate::dialect::{FeedMode, Function, Habit, Numbered};
 use crate::errors::NcCode;
 use crate::motion::{Compensation, Spindle};
 
@@ -28,17 +28,17 @@ impl Sinumerik<'_> {
             Some([Some(Value::Number(number))]) => *number as i32,
             Some(_) => return Err(word.no_meaning()),
         };
-        if let Some(second) = self.state.dialect.counted.number {
+        if let Some(second) = self.state.dialect.turning.counted.number {
             return match number {
                 1 => self.state.count(false),
                 number if number == second => self.state.count(true),
                 _ => Err(word.no_meaning()),
             };
         }
-        let Some(live) = self.state.dialect.live_spindle else {
+        let Some(live) = self.state.dialect.number(Numbered::LiveSpindle) else {
             return Err(word.foreign("on a machine without another spindle"));
         };
-        let [milling, turning] = self.state.dialect.spindle_modes;
+        let [milling, turning] = self.state.dialect.turning.mode_codes;
         match number {
             1 if self.state.live => self.change_spindle(false, turning),
             1 => Ok(()),
@@ -57,7 +57,7 @@ impl Sinumerik<'_> {
 
     /// M70: the main spindle stands and becomes an axis.
     pub(super) fn become_axis(&mut self, on: bool, code: u32) -> Result<(), Fault> {
-        if self.state.dialect.live_spindle.is_none() {
+        if self.state.dialect.number(Numbered::LiveSpindle).is_none() {
             return self.change_spindle(on, Some(code as i32));
         }
         if self.state.modes.spindle != Spindle::Off || self.state.live {
@@ -91,7 +91,7 @@ impl Sinumerik<'_> {
     }
 
     fn check_transformation(&self) -> Result<(), Fault> {
-        if !self.state.dialect.transforms || !self.state.live {
+        if !self.state.dialect.has(Habit::Transforms) || !self.state.live {
             return refuse("a transformation while the main spindle is no axis");
         }
         if self.is_transformed() {
@@ -129,7 +129,7 @@ impl Sinumerik<'_> {
     /// Where an axis word of the block leads: which axis, by what on the tape as its scale counts
     /// it. Y of TRACYL turns C.
     pub(super) fn in_transformation(&self, axis: usize, value: f64) -> (usize, f64) {
-        let is_diameter = self.state.dialect.scales[0].is_some_and(|x| x.is_diameter());
+        let is_diameter = self.state.dialect.axes[0].scale.is_some_and(|x| x.is_diameter());
         match (axis, self.state.cylinder) {
             (0, _) if self.counts_radii && is_diameter => (0, 2.0 * value),
             (1, Some(radius)) => (C, (value * self.state.unit() / radius).to_degrees()),
@@ -139,11 +139,11 @@ impl Sinumerik<'_> {
 
     /// Refuses what only one of the two kinds of spindle does, and axes that are not there.
     pub(super) fn check_live(&self, said: &Said) -> Result<(), Fault> {
-        if self.state.dialect.live_at_start.is_none() {
+        if self.state.dialect.turning.live_at_start.is_none() {
             return Ok(());
         }
         let names = |axis: usize| said.axes[axis].is_some();
-        if self.state.dialect.transforms && names(1) && !self.is_transformed() {
+        if self.state.dialect.has(Habit::Transforms) && names(1) && !self.is_transformed() {
             return refuse("a word of Y without TRANSMIT and TRACYL");
         }
         if names(C) && (self.is_transformed() || !self.state.live) {

@@ -1,10 +1,9 @@
 //! CYCLE: the holes at the points to come.
 
-use fil_cl::{Record, Vocabulary, Word, WordId, words as w};
+use fil_cl::{Record, Word, WordId, words as w};
 use fil_machine::cycle_kind::CycleKind;
 
-use super::super::statements::statement;
-use super::super::wanted::{Effect, Wanted};
+use super::super::wanted::Wanted;
 use super::{Cycle, State};
 use crate::motion::Rate;
 
@@ -23,22 +22,22 @@ const CYCLES: [(WordId, CycleKind); 11] = [
 ];
 
 impl State {
-    pub(super) fn cycle(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
+    /// CYCLE; `None` for a form that leaves the path open.
+    pub(super) fn cycle(&mut self, record: &Record) -> Option<Vec<Wanted>> {
         let pulls_back = record.has(w::PULBAC);
         let by_itself = record.after(w::RTRCTO) == Some(Word::Minor(w::AUTO));
         let off = record.has(w::OFF);
         if !pulls_back && (off || record.has(w::NOMORE)) {
             self.cycle = None;
-            return vec![Wanted::CycleEnd];
+            return Some(vec![Wanted::CycleEnd]);
         }
         if record.data == [Word::Minor(w::INIT)] {
-            return Vec::new();
+            return Some(Vec::new());
         }
         let number = |words: &[WordId]| words.iter().find_map(|word| record.number_after(*word));
         let kind = CYCLES.iter().find(|(word, _)| record.has(*word)).map(|(_, kind)| *kind);
         let (Some(kind), Some(depth)) = (kind, number(&[w::DEPTH, w::FEDTO])) else {
-            let what = statement(record, vocabulary);
-            return vec![Wanted::Unknown { what, effect: Effect::Path }];
+            return None;
         };
         let rate = [w::MMPM, w::IPM, w::FPM, w::MMPR, w::IPR, w::FPR]
             .iter()
@@ -67,6 +66,6 @@ impl State {
             rigid,
         });
         let begins = begins.then_some(Wanted::CycleEnd);
-        begins.into_iter().chain(rigid.then_some(Wanted::RigidTap)).collect()
+        Some(begins.into_iter().chain(rigid.then_some(Wanted::RigidTap)).collect())
     }
 }

@@ -6,7 +6,8 @@ use fil_machine::axis_chain::{Carries, Rotary};
 use fil_machine::locations::{InputCsys, InputOrigin, InputTracut, RotaryTableWords};
 use nalgebra::{Matrix3x4, Vector3};
 
-use super::{Matrix, State, own_words};
+use super::named_frame::NamedFrames;
+use super::{State, own_words};
 use crate::forward::Forward;
 use crate::motion::Position;
 use crate::verify::statements::{numbers, numbers_beside};
@@ -38,28 +39,49 @@ pub struct FrameWords {
     pub turned: [Option<f64>; 2],
 }
 
-impl State {
+/// TRANS with a matrix.
+pub(super) struct Matrix {
+    pub(super) rows: Matrix3x4<f64>,
+    pub(super) turns_axis: bool,
+}
+
+/// The frame that points of the CL file are in; lengths in CL units.
+#[derive(Default)]
+pub(super) struct Frame {
+    pub(super) matrix: Option<Matrix>,
+    pub(super) shift: Vector3<f64>,
+    /// The machine's shift along its tool axis, which no TRANS ends.
+    pub(super) along: Vector3<f64>,
+    /// A matrix without OPTION leaves the tool axis alone.
+    pub(super) leaves_axis: bool,
+    pub(super) words: FrameWords,
+    pub(super) named: NamedFrames,
+}
+
+impl Frame {
     /// True for a preparatory function that chooses a work offset.
     pub(super) fn chooses_offset(&self, code: f64) -> bool {
         let is_own = |(first, last)| (f64::from(first)..=f64::from(last)).contains(&code);
         let is_named = code.fract() == 0.0 && self.words.offsets.is_some_and(is_own);
         is_named || own_words::WORK_OFFSETS.contains(&code)
     }
+}
 
+impl State {
     pub(super) fn trans(&mut self, record: &Record) -> Vec<Wanted> {
         if record.has(w::NOMORE) || record.has(w::OFF) {
-            self.matrix = None;
-            self.shift = Vector3::zeros();
+            self.frame.matrix = None;
+            self.frame.shift = Vector3::zeros();
             return Vec::new();
         }
         let option = record.number_after(w::OPTION);
         let values = numbers_beside(record, &[w::OPTION]);
         match values[..] {
-            [x, y, z] => self.shift = Vector3::new(x, y, z),
+            [x, y, z] => self.frame.shift = Vector3::new(x, y, z),
             _ if values.len() == 12 => {
                 let rows = Matrix3x4::from_row_slice(&values);
-                self.matrix =
-                    Some(Matrix { rows, turns_axis: option.is_none() && !self.leaves_axis });
+                self.frame.matrix =
+                    Some(Matrix { rows, turns_axis: option.is_none() && !self.frame.leaves_axis });
             }
             _ => return vec![Wanted::Unknown { what: "TRANS".to_string(), effect: Effect::Path }],
         }
@@ -68,42 +90,42 @@ impl State {
 
     /// ORIGIN as the machine reads it; `None` where it does not.
     pub(super) fn origin(&mut self, record: &Record) -> Option<Vec<Wanted>> {
-        let sign = match self.words.origin {
+        let sign = match self.frame.words.origin {
             InputOrigin::Refused => return None,
             InputOrigin::ZeroOfTheMachineInThePart => -1.0,
             InputOrigin::ZeroOfThePartOnTheMachine => 1.0,
         };
         if record.has(w::NOMORE) || record.has(w::OFF) {
-            self.shift = Vector3::zeros();
+            self.frame.shift = Vector3::zeros();
             return Some(Vec::new());
         }
         let [x, y, z] = numbers(record)[..] else { return None };
-        self.shift = Vector3::new(x, y, z) * sign;
+        self.frame.shift = Vector3::new(x, y, z) * sign;
         Some(Vec::new())
     }
 
     /// TRACUT as the machine reads it; `None` where it does not.
     pub(super) fn tracut(&mut self, record: &Record) -> Option<Vec<Wanted>> {
-        if self.words.tracut == InputTracut::Refused {
+        if self.frame.words.tracut == InputTracut::Refused {
             return None;
         }
         if record.has(w::NOMORE) || record.has(w::OFF) {
-            self.matrix = None;
+            self.frame.matrix = None;
             return Some(Vec::new());
         }
         let values = numbers(record);
         let rows = (values.len() == 12).then(|| Matrix3x4::from_row_slice(&values))?;
-        self.matrix = Some(Matrix { rows, turns_axis: true });
+        self.frame.matrix = Some(Matrix { rows, turns_axis: true });
         Some(Vec::new())
     }
 
     /// ROTABL and ROTATE/TABLE as the machine reads them; `None` where it does not, or where
     /// the angle hangs on motions before.
     pub(super) fn table(&mut self, record: &Record) -> Option<Vec<Wanted>> {
-        if self.words.table == RotaryTableWords::Refused {
+        if self.frame.words.table == RotaryTableWords::Refused {
             return None;
         }
-        let forward = self.words.forward.as_ref()?;
+        let forward = self.frame.words.forward.as_ref()?;
         let named = [w::AAXIS, w::BAXIS, w::CAXIS].iter().position(|axis| record.has(*axis));
         let is_meant = |rotary: &Rotary| {
             rotary.carries == Carries::Table && named.is_none_or(|named| named == rotary.axis)
@@ -114,7 +136,7 @@ impl State {
         let rotary = forward.rotaries()[index].as_ref()?;
         let is_limited = rotary.is_limited();
         let way = self.way_of_table(record);
-        let stood = self.words.turned[index];
+        let stood = self.frame.words.turned[index];
         let by = angle * way.unwrap_or(1.0);
         let (angle, way) = match (record.has(w::INCR), way) {
             (true, None) => (stood? + by, TableWay::Number),
@@ -127,10 +149,10 @@ impl State {
             }
             (false, _) => (angle, TableWay::Number),
         };
-        self.words.turned[index] = Some(angle);
-        let turned = self.words.turned.map(Option::unwrap_or_default);
+        self.frame.words.turned[index] = Some(angle);
+        let turned = self.frame.words.turned.map(Option::unwrap_or_default);
         let unit = self.unit();
-        match self.words.table {
+        match self.frame.words.table {
             RotaryTableWords::PointsStay => {
                 let at = |linear: [f64; 3]| {
                     let at = Position { linear, rotary: turned, ..Position::default() };
@@ -144,11 +166,11 @@ impl State {
                 };
                 let columns = [along(0), along(1), along(2), zero.coords];
                 let rows = Matrix3x4::from_columns(&columns);
-                self.matrix = Some(Matrix { rows, turns_axis: true });
+                self.frame.matrix = Some(Matrix { rows, turns_axis: true });
             }
             _ => {
-                self.axis = forward.axis(turned);
-                self.point = None;
+                self.tool.axis = forward.axis(turned);
+                self.tool.point = None;
             }
         }
         Some(vec![Wanted::Turn { index, angle, way }])
@@ -157,10 +179,10 @@ impl State {
     /// Which way positions count as a record turns the table, 1 or -1; `None` where either will do.
     fn way_of_table(&self, record: &Record) -> Option<f64> {
         let clockwise = match (record.has(w::CLW), record.has(w::CCLW)) {
-            (false, false) => self.words.by_default,
+            (false, false) => self.frame.words.by_default,
             (clockwise, _) => clockwise,
         };
-        let sense = self.words.clockwise.filter(|_| !self.multax)?;
+        let sense = self.frame.words.clockwise.filter(|_| !self.tool.multax)?;
         Some(if clockwise { sense } else { -sense })
     }
 }

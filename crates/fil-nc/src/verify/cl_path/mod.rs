@@ -13,35 +13,27 @@ mod skip;
 mod thread;
 mod tool_names;
 mod unit;
+mod words;
 
 use std::collections::VecDeque;
 
 use fil_cl::record::{kind, mode};
-use fil_cl::{Circle, Reader, Record, Vocabulary, WordId, words as w};
+use fil_cl::{Circle, Reader, Record, Vocabulary, words as w};
 use fil_diag::Diag;
 use fil_machine::Unit;
 use fil_machine::cycle_kind::CycleKind;
-use nalgebra::{Matrix3x4, Point3, Vector3};
+use nalgebra::{Point3, Vector3};
 
-use super::statements::{
-    compensation, coolant, numbers, numbers_beside, plane_of_compensation, spindle, statement,
-    whole,
-};
-use super::wanted::{Effect, End, Step, Wanted};
+use super::statements::{numbers, numbers_beside, whole};
+use super::wanted::{End, Step, Wanted};
+use frame_words::Frame;
 pub use frame_words::FrameWords;
+use thread::Threads;
+pub use words::{ignored_words, knows_word};
 
-use crate::motion::{INCH, Rate, Speed};
-use named_frame::NamedFrames;
+use crate::motion::{INCH, Rate};
 use skip::Opskip;
 use tool_names::ToolNames;
-use unit::said;
-
-/// Statements that move the tool or the frame by rules that are not public.
-const ENDS_THE_PATH: [WordId; 9] =
-    [w::COPY, w::INDEX, w::ROTABL, w::ROTATE, w::ROTHED, w::HEAD, w::CALSUB, w::DEFSUB, w::ENDSUB];
-
-/// Statements that write words of the user's own.
-const OWN_WORDS: [WordId; 2] = [w::POSTN, w::REPEAT];
 
 /// A cycle that is on; lengths in CL units.
 #[derive(Clone, Copy)]
@@ -67,45 +59,39 @@ struct Waiting {
     turns: f64,
 }
 
-/// TRANS with a matrix.
-struct Matrix {
-    rows: Matrix3x4<f64>,
-    turns_axis: bool,
-}
-
-/// What statements leave for the later ones; lengths in CL units.
-struct State {
-    /// `None` before anything has said it.
-    unit: Option<Unit>,
+/// Where the tool is, in CL units.
+#[derive(Default)]
+struct Tool {
     point: Option<Point3<f64>>,
     axis: Vector3<f64>,
     /// MULTAX is on.
     multax: bool,
+}
+
+/// What SPINDL has asked for last.
+#[derive(Default)]
+struct SpindleAsked {
+    /// Turns a minute.
+    turns: Option<f64>,
+    /// It named the second spindle.
+    is_side: bool,
+}
+
+/// What statements leave for the later ones; lengths in CL units.
+#[derive(Default)]
+struct State {
+    /// `None` before anything has said it.
+    unit: Option<Unit>,
+    tool: Tool,
     rapid: bool,
     rate: Option<Rate>,
-    thread: Option<Rate>,
-    /// The lead of PITCH, for a thread that names none.
-    pitch: Option<Rate>,
-    /// Turns of the spindle that SPINDL has given last.
-    turns: Option<f64>,
-    /// The last SPINDL spoke of the second spindle.
-    counts_side: bool,
-    /// How far from the crest the tool goes back from a thread that does not say it, mm.
-    thread_clearance: f64,
-    /// OP/THREAD that waits for the ends of its crest.
-    awaited: Option<thread::Awaited>,
+    spindle: SpindleAsked,
+    threads: Threads,
     circle: Option<Waiting>,
     cycle: Option<Cycle>,
-    matrix: Option<Matrix>,
-    shift: Vector3<f64>,
-    /// The machine's shift along its tool axis, which no TRANS ends.
-    along: Vector3<f64>,
-    /// A matrix without OPTION leaves the tool axis alone.
-    leaves_axis: bool,
+    frame: Frame,
     /// LINTOL, mm.
     straight: Option<f64>,
-    words: FrameWords,
-    frames: NamedFrames,
     names: ToolNames,
 }
 
@@ -135,28 +121,9 @@ impl<'r> ClPath<'r> {
             vocabulary: Vocabulary::new(),
             record: Record::default(),
             state: State {
-                unit: None,
-                point: None,
-                axis: Vector3::z(),
-                multax: false,
-                rapid: false,
-                rate: None,
-                turns: None,
-                thread: None,
-                pitch: None,
-                counts_side: false,
-                thread_clearance: 0.0,
-                awaited: None,
-                circle: None,
-                cycle: None,
-                matrix: None,
-                shift: Vector3::from(shift),
-                along: Vector3::zeros(),
-                leaves_axis: false,
-                straight: None,
-                words: FrameWords::default(),
-                frames: NamedFrames::default(),
-                names: ToolNames::default(),
+                tool: Tool { axis: Vector3::z(), ..Tool::default() },
+                frame: Frame { shift: Vector3::from(shift), ..Frame::default() },
+                ..State::default()
             },
             ready: VecDeque::new(),
             over: false,
@@ -180,20 +147,20 @@ impl<'r> ClPath<'r> {
     /// What the machine does with the input besides: a shift along its tool axis, and
     /// whether a matrix without OPTION leaves the tool axis alone.
     pub fn on_machine(mut self, along: [f64; 3], leaves_axis: bool) -> Self {
-        self.state.along = Vector3::from(along);
-        self.state.leaves_axis = leaves_axis;
+        self.state.frame.along = Vector3::from(along);
+        self.state.frame.leaves_axis = leaves_axis;
         self
     }
 
     /// How far from the crest the tool goes back from a thread that does not say it, mm.
     pub fn clear_of_threads_by(mut self, clearance: f64) -> Self {
-        self.state.thread_clearance = clearance;
+        self.state.threads.clearance = clearance;
         self
     }
 
     /// What the machine takes words for that move the frame.
     pub fn with_frame_words(mut self, words: FrameWords) -> Self {
-        self.state.words = words;
+        self.state.frame.words = words;
         self
     }
 
@@ -291,144 +258,18 @@ impl State {
 
     fn mode(&mut self, record: &Record) {
         if record.sub == mode::MULTAX {
-            self.multax = !record.has(w::OFF);
+            self.tool.multax = !record.has(w::OFF);
         }
         match (record.sub, &numbers(record)[..]) {
-            (mode::TLAXIS, [i, j, k]) => self.axis = Vector3::new(*i, *j, *k),
-            (mode::MULTAX, _) if record.has(w::OFF) => self.axis = Vector3::z(),
+            (mode::TLAXIS, [i, j, k]) => self.tool.axis = Vector3::new(*i, *j, *k),
+            (mode::MULTAX, _) if record.has(w::OFF) => self.tool.axis = Vector3::z(),
             _ => {}
-        }
-    }
-
-    fn command(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
-        let unknown = |effect| {
-            let what = statement(record, vocabulary);
-            vec![Wanted::Unknown { what, effect }]
-        };
-        match record.major {
-            w::UNITS | w::UNIT => {
-                let unit = said(record);
-                self.unit = Some(unit);
-                vec![Wanted::Metric(unit.is_metric())]
-            }
-            w::RAPID => {
-                self.rapid = true;
-                Vec::new()
-            }
-            // Inverse time says the same feed in another way.
-            w::FEDRAT if record.has(w::INVERS) && numbers(record).is_empty() => Vec::new(),
-            w::FEDRAT if record.has(w::LOCK) && numbers(record).is_empty() => {
-                vec![Wanted::OverrideLock(record.has(w::ON))]
-            }
-            w::CUTTER => {
-                let cutter = numbers(record).first().map(|diameter| diameter * self.unit());
-                cutter.map(Wanted::Cutter).into_iter().collect()
-            }
-            w::FEDRAT => {
-                self.rate = numbers(record).first().map(|value| self.rate_of(record, *value));
-                if let Some(cycle) = self.cycle.as_mut().filter(|cycle| !cycle.has_own_rate) {
-                    cycle.rate = self.rate;
-                    cycle.turns = None;
-                }
-                self.end_thread();
-                Vec::new()
-            }
-            w::TRANS => self.trans(record),
-            w::ORIGIN => self.origin(record).unwrap_or_else(|| unknown(Effect::Path)),
-            w::TRACUT => self.tracut(record).unwrap_or_else(|| unknown(Effect::Path)),
-            w::ROTABL | w::ROTATE => self.table(record).unwrap_or_else(|| unknown(Effect::Path)),
-            w::CYCLE => self.cycle(record, vocabulary),
-            w::GOHOME if record.data.is_empty() => self.go_to_machine(Wanted::Home),
-            w::RETRCT if record.data.is_empty() => self.go_to_machine(Wanted::Retract),
-            w::GOHOME => match numbers(record)[..] {
-                [x, y, z] => vec![self.line_to(Point3::new(x, y, z), self.axis)],
-                [x, y, z, i, j, k] => {
-                    vec![self.line_to(Point3::new(x, y, z), Vector3::new(i, j, k))]
-                }
-                _ => unknown(Effect::Path),
-            },
-            w::LOADTL | w::LOAD | w::TURRET => {
-                self.tool(record).unwrap_or_else(|| unknown(Effect::Words))
-            }
-            w::SPINDL => {
-                self.counts_side = record.has(w::SIDE);
-                let wanted = spindle(record);
-                let speed = wanted.iter().find_map(|wanted| match wanted {
-                    Wanted::Speed(speed) => Some(*speed),
-                    _ => None,
-                });
-                self.turns = speed.map_or(self.turns, Speed::turns);
-                wanted
-            }
-            w::COOLNT => coolant(record).map_or_else(|| unknown(Effect::Words), |kind| vec![kind]),
-            w::CUTCOM => {
-                let plane = plane_of_compensation(record);
-                let both = |side| [side].into_iter().chain(plane).collect();
-                compensation(record).map_or_else(|| unknown(Effect::Words), both)
-            }
-            w::DELAY => {
-                let amount = numbers(record).first().copied();
-                vec![match amount.filter(|_| record.has(w::REV)) {
-                    Some(turns) => Wanted::DwellTurns(turns),
-                    None => Wanted::Dwell(amount),
-                }]
-            }
-            w::PITCH => self.pitch(record).unwrap_or_else(|| unknown(Effect::Path)),
-            w::OP | w::THREAD => self.thread(record).unwrap_or_else(|| unknown(Effect::Path)),
-            w::MODE if record.has(w::TURN) => vec![Wanted::Mills(false)],
-            w::MODE if record.has(w::MILL) => vec![Wanted::Mills(true)],
-            w::PREFUN => match numbers(record)[..] {
-                [code] if self.chooses_offset(code) => {
-                    vec![Wanted::Fixture(code as u32)]
-                }
-                [code] if (17.0..20.0).contains(&code) => {
-                    let plane = Wanted::Plane(19 - code as usize);
-                    unknown(own_words::effect(record)).into_iter().chain([plane]).collect()
-                }
-                // Its mode is that of a text.
-                [code] => {
-                    let text = Wanted::Words(format!("G{code}"));
-                    unknown(own_words::effect(record)).into_iter().chain([text]).collect()
-                }
-                _ => unknown(own_words::effect(record)),
-            },
-            w::SET if record.has(w::OFSETL) => {
-                vec![Wanted::WorkOffset(numbers(record).first().copied())]
-            }
-            w::LINTOL => self.straight(record),
-            w::STOP => vec![Wanted::Stop { optional: false }],
-            w::OPSTOP => vec![Wanted::Stop { optional: true }],
-            w::INSERT => {
-                let text = record.text.trim().to_string();
-                vec![Wanted::Insert { text, may_be_skipped: false }]
-            }
-            w::END => vec![Wanted::End(End::Stay)],
-            w::REWIND => vec![Wanted::End(End::Rewind)],
-            w::CLAMP => vec![Wanted::Clamp(record.has(w::ON))],
-            w::AUXFUN => {
-                let code = numbers(record).first().and_then(|code| whole(*code));
-                code.map_or_else(
-                    || unknown(Effect::Auxiliary),
-                    |code| vec![Wanted::Auxiliary(code)],
-                )
-            }
-            major if ENDS_THE_PATH.contains(&major) => unknown(Effect::Path),
-            major if OWN_WORDS.contains(&major) => {
-                let (effect, words) = match major {
-                    w::POSTN => own_words::once(record, vocabulary),
-                    _ => own_words::repeated(record, vocabulary),
-                };
-                let mut wanted = unknown(effect);
-                wanted.push(words);
-                wanted
-            }
-            _ => Vec::new(),
         }
     }
 
     /// To a position of the machine, which the CL file does not know.
     fn go_to_machine(&mut self, what: Wanted) -> Vec<Wanted> {
-        self.point = None;
+        self.tool.point = None;
         self.rapid = false;
         vec![what]
     }

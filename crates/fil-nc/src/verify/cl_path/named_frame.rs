@@ -4,7 +4,8 @@ use fil_cl::Record;
 use fil_machine::locations::InputCsys;
 use nalgebra::{Matrix3x4, Matrix4, Vector3};
 
-use super::{Matrix, State};
+use super::State;
+use super::frame_words::Matrix;
 use crate::verify::statements::numbers;
 
 /// Numbers of two frames that differ by less are the same.
@@ -45,28 +46,28 @@ impl State {
     /// Takes the frame of a record that names one.
     pub(super) fn name_frame(&mut self, record: &Record, word: &str) {
         if !matches!(word, "CSYS" | "CATIA0" | "MSYS" | "CATMAT")
-            || self.words.without_effect.iter().any(|listed| listed == word)
+            || self.frame.words.without_effect.iter().any(|listed| listed == word)
         {
             return;
         }
         let Some(frame) = frame(word, &numbers(record)) else { return };
-        let known = self.frames.of_words.iter().position(|(known, ..)| known == word);
+        let known = self.frame.named.of_words.iter().position(|(known, ..)| known == word);
         let at = known.unwrap_or_else(|| {
-            self.frames.of_words.push((word.to_string(), frame, frame));
-            self.frames.of_words.len() - 1
+            self.frame.named.of_words.push((word.to_string(), frame, frame));
+            self.frame.named.of_words.len() - 1
         });
-        let (_, first, now) = &mut self.frames.of_words[at];
+        let (_, first, now) = &mut self.frame.named.of_words[at];
         if known.is_some() && near(now, &frame) {
             return;
         }
         *now = frame;
-        if self.words.csys == InputCsys::RefusedWhereItChanges {
-            self.frames.waiting = Some(at);
+        if self.frame.words.csys == InputCsys::RefusedWhereItChanges {
+            self.frame.named.waiting = Some(at);
             return;
         }
         let into_first = first.try_inverse().unwrap_or_else(Matrix4::identity) * frame;
         let rows: Matrix3x4<f64> = into_first.fixed_rows::<3>(0).into_owned();
-        self.matrix = (!near(first, &frame)).then_some(Matrix { rows, turns_axis: true });
+        self.frame.matrix = (!near(first, &frame)).then_some(Matrix { rows, turns_axis: true });
     }
 }
 

@@ -5,7 +5,8 @@ use fil_cl::{Record, Vocabulary};
 use fil_machine::cycle_kind::CycleKind;
 use nalgebra::{Point3, Vector3};
 
-use super::{Cycle, Matrix, State, Waiting};
+use super::frame_words::Matrix;
+use super::{Cycle, State, Waiting};
 use crate::forward::Pose;
 use crate::motion::Rate;
 use crate::verify::report::FindingKind;
@@ -22,7 +23,7 @@ const CLOSES: f64 = 1e-3;
 
 impl State {
     pub(super) fn motion(&mut self, record: &Record, vocabulary: &Vocabulary) -> Option<Wanted> {
-        let axis = record.axis().map_or(self.axis, Vector3::from);
+        let axis = record.axis().map_or(self.tool.axis, Vector3::from);
         let point = match record.point() {
             by if record.sub == motion::GODLTA => self.point_beside(record, by),
             point => point.map(Point3::from),
@@ -32,25 +33,25 @@ impl State {
             return Some(Wanted::Unknown { what, effect: Effect::Path });
         };
         if record.sub == motion::FROM {
-            self.point = Some(point);
-            self.axis = axis;
+            self.tool.point = Some(point);
+            self.tool.axis = axis;
             return None;
         }
-        if let Some(what) = self.frames.doubt(axis) {
+        if let Some(what) = self.frame.named.doubt(axis) {
             return Some(Wanted::Unknown { what, effect: Effect::Path });
         }
         if record.sub == motion::GODLTA && (self.cycle.is_none() || self.rapid) {
             return Some(self.line_to(point, axis));
         }
-        if self.awaited.is_some() && !self.rapid {
-            self.axis = axis;
+        if self.threads.awaited.is_some() && !self.rapid {
+            self.tool.axis = axis;
             return self.point_of_thread(point);
         }
         Some(match (self.circle.take(), self.cycle) {
             (Some(waiting), _) => self.arc_to(&waiting, point, axis),
             (None, Some(cycle)) if !self.rapid => {
-                self.point = Some(point);
-                self.axis = axis;
+                self.tool.point = Some(point);
+                self.tool.axis = axis;
                 if !self.keeps_lengths() {
                     let what = "a hole in a frame that scales its lengths".to_string();
                     let effect = Effect::Doubtful(FindingKind::Cycle);
@@ -70,18 +71,18 @@ impl State {
 
     /// Where GODLTA leads from the last point: along the tool axis, or by a vector.
     fn point_beside(&self, record: &Record, by: Option<[f64; 3]>) -> Option<Point3<f64>> {
-        let point = self.point?;
+        let point = self.tool.point?;
         match numbers(record)[..] {
-            [along] => Some(point + self.axis * along),
+            [along] => Some(point + self.tool.axis * along),
             _ => by.map(|by| point + Vector3::from(by)),
         }
     }
 
     pub(super) fn line_to(&mut self, point: Point3<f64>, axis: Vector3<f64>) -> Wanted {
-        self.point = Some(point);
-        self.axis = axis;
+        self.tool.point = Some(point);
+        self.tool.axis = axis;
         let pose = self.pose(point, axis);
-        match self.thread {
+        match self.threads.lead {
             _ if std::mem::take(&mut self.rapid) => Wanted::Rapid(pose),
             Some(pitch) => Wanted::Thread(pose, pitch),
             None => Wanted::Feed(pose, self.rate),
@@ -91,7 +92,9 @@ impl State {
     /// A tap at a feed a minute comes at another speed of the spindle than the first hole of its
     /// cycle, so that its lead is another one.
     fn taps_another_lead(&mut self) -> bool {
-        let (Some(cycle), Some(turns)) = (&mut self.cycle, self.turns) else { return false };
+        let (Some(cycle), Some(turns)) = (&mut self.cycle, self.spindle.turns) else {
+            return false;
+        };
         let hangs = cycle.kind == CycleKind::Tap && matches!(cycle.rate, Some(Rate::PerMinute(_)));
         hangs && cycle.turns.replace(turns).is_some_and(|before| before != turns)
     }
@@ -118,7 +121,7 @@ impl State {
         self.rapid = false;
         let keeps_circles = self.scale().is_some();
         let normal = Vector3::from(waiting.circle.axis);
-        let (Some(start), Some(normal)) = (self.point, normal.try_normalize(1e-9)) else {
+        let (Some(start), Some(normal)) = (self.tool.point, normal.try_normalize(1e-9)) else {
             return Wanted::Unknown { what: "CIRCLE".to_string(), effect: Effect::Path };
         };
         if !keeps_circles {
@@ -137,14 +140,14 @@ impl State {
             return Wanted::Unknown { what, effect: Effect::Doubtful(FindingKind::Arc) };
         }
         let sweep = full_sweep(&bare, waiting.turns);
-        self.point = Some(end);
-        self.axis = axis;
+        self.tool.point = Some(end);
+        self.tool.axis = axis;
         Wanted::Arc(Box::new(self.in_frame(&Arc { sweep, ..bare })), self.rate)
     }
 
     /// How many times longer TRANS makes all lengths; `None` where not all alike.
     fn scale(&self) -> Option<f64> {
-        let Some(matrix) = &self.matrix else { return Some(1.0) };
+        let Some(matrix) = &self.frame.matrix else { return Some(1.0) };
         let turn = matrix.rows.fixed_columns::<3>(0).into_owned();
         let (squares, scale) = (turn.transpose() * turn, turn.column(0).norm_squared());
         let off = (squares - nalgebra::Matrix3::identity() * scale).amax();
@@ -160,7 +163,7 @@ impl State {
     fn in_frame(&self, arc: &Arc) -> Arc {
         let place = |point: Point3<f64>| self.pose(point, Vector3::z()).tip;
         let (center, ahead) = (place(arc.center), place(arc.center + arc.normal));
-        let mirrored = self.matrix.as_ref().is_some_and(|matrix| {
+        let mirrored = self.frame.matrix.as_ref().is_some_and(|matrix| {
             matrix.rows.fixed_columns::<3>(0).into_owned().determinant() < 0.0
         });
         let normal = (ahead - center).normalize() * if mirrored { -1.0 } else { 1.0 };
@@ -175,7 +178,7 @@ impl State {
 
     /// A point and a tool axis after TRANS, in mm.
     pub(super) fn pose(&self, point: Point3<f64>, axis: Vector3<f64>) -> Pose {
-        let (point, axis) = match &self.matrix {
+        let (point, axis) = match &self.frame.matrix {
             Some(Matrix { rows, turns_axis }) => {
                 let turned = rows.fixed_columns::<3>(0) * axis;
                 let point = Point3::from(rows * point.to_homogeneous());
@@ -184,7 +187,10 @@ impl State {
             None => (point, axis),
         };
         let axis = axis.try_normalize(1e-9).unwrap_or(axis);
-        Pose { tip: Point3::from((point.coords + self.shift + self.along) * self.unit()), axis }
+        Pose {
+            tip: Point3::from((point.coords + self.frame.shift + self.frame.along) * self.unit()),
+            axis,
+        }
     }
 }
 

@@ -23,6 +23,19 @@ pub(super) struct Awaited {
     start: Option<Point3<f64>>,
 }
 
+/// Threads and their leads.
+#[derive(Default)]
+pub(super) struct Threads {
+    /// The lead of the motions at hand.
+    pub(super) lead: Option<Rate>,
+    /// The lead of PITCH, for a thread that names none.
+    pub(super) pitch: Option<Rate>,
+    /// OP/THREAD that waits for the ends of its crest.
+    pub(super) awaited: Option<Awaited>,
+    /// How far from the crest the tool goes back from a thread that does not name it, mm.
+    pub(super) clearance: f64,
+}
+
 impl State {
     /// OP/THREAD and THREAD; `None` for forms that leave the passes open.
     pub(super) fn thread(&mut self, record: &Record) -> Option<Vec<Wanted>> {
@@ -37,8 +50,9 @@ impl State {
             return None;
         }
         let says_lead = [w::TPI, w::MMPR, w::IPR].into_iter().any(|word| record.has(word));
-        if let Some(pitch) = self.pitch.filter(|_| record.major == w::THREAD && !says_lead) {
-            self.thread = Some(pitch);
+        if let Some(pitch) = self.threads.pitch.filter(|_| record.major == w::THREAD && !says_lead)
+        {
+            self.threads.lead = Some(pitch);
             return Some(vec![Wanted::ThreadBegins]);
         }
         let lead = self.lead(record)?;
@@ -46,18 +60,18 @@ impl State {
         match (given(w::DEPTH), given(w::CUTS)) {
             (Some(depth), Some(passes)) => {
                 let starts = record.number_after(w::MULTRD).unwrap_or(1.0).max(1.0) as u32;
-                self.awaited = Some(Awaited {
+                self.threads.awaited = Some(Awaited {
                     on_face: record.has(w::FACE),
                     lead: lead * f64::from(starts),
                     starts,
                     depth,
                     passes: passes as u32,
                     springs: record.number_after(w::FINCUT).map(|count| count as u32),
-                    from: self.point,
+                    from: self.tool.point,
                     start: None,
                 });
             }
-            (None, None) => self.thread = Some(Rate::PerTurn(lead)),
+            (None, None) => self.threads.lead = Some(Rate::PerTurn(lead)),
             _ => return None,
         }
         Some(vec![Wanted::ThreadBegins])
@@ -84,14 +98,14 @@ impl State {
         let gains = record.number_after(w::INCR).unwrap_or(0.0);
         let change = (gains - record.number_after(w::DECR).unwrap_or(0.0)) * unit;
         let rate = if change == 0.0 { Rate::PerTurn(lead) } else { Rate::Varying(lead, change) };
-        self.pitch = Some(rate);
+        self.threads.pitch = Some(rate);
         Some(Vec::new())
     }
 
     /// Ends a thread.
     pub(super) fn end_thread(&mut self) {
-        self.thread = None;
-        self.awaited = None;
+        self.threads.lead = None;
+        self.threads.awaited = None;
     }
 
     /// The lead of a thread or tap in mm: TPI counts threads an inch.
@@ -120,7 +134,7 @@ impl State {
         let kind = record.data.iter().position(|word| *word == Word::Minor(w::TYPE))?;
         let (depth, angle) = (value(kind + 2)?, value(kind + 3)?);
         let starts = record.number_after(w::TIMES).unwrap_or(1.0).max(1.0);
-        let from = self.point;
+        let from = self.tool.point;
         let word = [w::IN, w::OUT, w::FACE].into_iter().find(|word| record.has(*word));
         let out = match word {
             Some(w::FACE) => self.out_of_face(from, begin),
@@ -142,22 +156,22 @@ impl State {
             clearance: record.number_after(w::FEDTO),
             angle,
         };
-        self.point = self.stands_behind(&thread);
+        self.tool.point = self.stands_behind(&thread);
         Some(self.on_machine(&thread))
     }
 
     /// Out of a face, which looks to +Z, but for one of a part in the second spindle.
     fn out_of_face(&self, from: Option<Point3<f64>>, begin: Point3<f64>) -> Vector3<f64> {
         let is_behind = from.is_some_and(|from| from.z < begin.z);
-        if self.counts_side && is_behind { -Vector3::z() } else { Vector3::z() }
+        if self.spindle.is_side && is_behind { -Vector3::z() } else { Vector3::z() }
     }
 
     /// A point behind OP/THREAD: the first begins the crest, the second ends it.
     pub(super) fn point_of_thread(&mut self, point: Point3<f64>) -> Option<Wanted> {
-        let mut awaited = self.awaited.take()?;
+        let mut awaited = self.threads.awaited.take()?;
         let Some(begin) = awaited.start else {
             awaited.start = Some(point);
-            self.awaited = Some(awaited);
+            self.threads.awaited = Some(awaited);
             return None;
         };
         let open = Wanted::Unknown { what: "OP/THREAD".to_string(), effect: Effect::Path };
@@ -180,7 +194,7 @@ impl State {
             clearance: Some((from - begin).dot(&out).abs()),
             angle: 0.0,
         };
-        self.point = self.stands_behind(&thread);
+        self.tool.point = self.stands_behind(&thread);
         Some(Wanted::WholeThread(Box::new(self.on_machine(&thread))))
     }
 
@@ -196,7 +210,7 @@ impl State {
         let away = thread.lead / self.unit() * (1.0 - 1.0 / f64::from(thread.starts));
         let rise = way.dot(&thread.out);
         let rises = rise.max(-rise * away / way[axis].abs()).max(0.0);
-        let clearance = thread.clearance.unwrap_or(self.thread_clearance / self.unit());
+        let clearance = thread.clearance.unwrap_or(self.threads.clearance / self.unit());
         let mut at = begin + thread.out * (clearance + rises);
         at[axis] -= way[axis].signum() * away;
         Some(at)

@@ -5,7 +5,7 @@ use super::super::modes_said::{
     name_of_fixture, said_of_compensation, said_of_offset, said_of_speed, said_of_spindle,
 };
 use super::super::report::FindingKind;
-use super::super::settings::Slack;
+use super::super::settings::{Quantity, Tolerances};
 use super::Expected;
 use crate::motion::{Modes, Speed, Spindle};
 
@@ -27,7 +27,7 @@ impl Expected {
         &mut self,
         modes: &Modes,
         changes: bool,
-        slack: &Slack,
+        slack: &Tolerances,
     ) -> Vec<(FindingKind, String)> {
         self.flush();
         let mut wrong = self.wrong(modes, Doing::Standing, slack);
@@ -67,7 +67,7 @@ impl Expected {
     pub(in super::super) fn check_resting(
         &mut self,
         modes: &Modes,
-        slack: &Slack,
+        slack: &Tolerances,
     ) -> Vec<(FindingKind, String)> {
         let of_motion = |kind: FindingKind| {
             matches!(kind, FindingKind::Spindle | FindingKind::Speed | FindingKind::Coolant)
@@ -86,7 +86,7 @@ impl Expected {
         modes: &Modes,
         moved: Moved,
         cuts: bool,
-        slack: &Slack,
+        slack: &Tolerances,
     ) -> Vec<(FindingKind, String)> {
         self.offset.moved(moved);
         self.compensation.moved(moved);
@@ -117,7 +117,7 @@ impl Expected {
         })
     }
 
-    fn wrong(&self, modes: &Modes, doing: Doing, slack: &Slack) -> Vec<(FindingKind, String)> {
+    fn wrong(&self, modes: &Modes, doing: Doing, slack: &Tolerances) -> Vec<(FindingKind, String)> {
         let mut wrong = Vec::new();
         if let Some(tool) = self.tool.filter(|tool| *tool != modes.tool) {
             wrong.push((
@@ -161,7 +161,7 @@ impl Expected {
         }
         self.again.wrong(self, modes, &mut wrong);
         let limit = |must: &Option<f64>| match (must, modes.speed_limit) {
-            (Some(must), Some(limit)) => (must - limit).abs() > slack.speed,
+            (Some(must), Some(limit)) => (must - limit).abs() > slack.of(Quantity::Speed),
             (must, limit) => must.is_some() != limit.is_some(),
         };
         if let Some(must) = self.speed_limit.filter(limit) {
@@ -205,11 +205,13 @@ impl Expected {
     }
 }
 
-fn same_speed(must: Speed, found: Option<Speed>, slack: &Slack) -> bool {
+fn same_speed(must: Speed, found: Option<Speed>, slack: &Tolerances) -> bool {
     match (must, found) {
-        (Speed::Turns(must), Some(Speed::Turns(found))) => (must - found).abs() <= slack.speed,
+        (Speed::Turns(must), Some(Speed::Turns(found))) => {
+            (must - found).abs() <= slack.of(Quantity::Speed)
+        }
         (Speed::Surface(must), Some(Speed::Surface(found))) => {
-            (must - found).abs() <= slack.surface
+            (must - found).abs() <= slack.of(Quantity::SurfaceSpeed)
         }
         _ => false,
     }

@@ -16,7 +16,7 @@ use fil_machine::locations::{
 };
 use fil_machine::user_blocks::{self, AroundChange};
 
-use crate::dialect::Dialect;
+use crate::dialect::{Dialect, Habit};
 use crate::forward::Forward;
 use crate::motion::{FOOT, unit};
 use crate::verify::cl_path::FrameWords;
@@ -51,7 +51,7 @@ pub enum Due {
 /// How far a value on the tape may lie from the exact one: half of the last
 /// digit of its address, or what the user allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slack {
+pub struct Tolerances {
     /// X, Y, Z, mm.
     pub linear: [f64; 3],
     /// X where no transformation makes it a radius, mm.
@@ -65,29 +65,57 @@ pub struct Slack {
     pub rotary: [f64; 2],
     /// I, J, K, mm.
     pub center: [f64; 3],
-    /// Radius of an arc, mm.
-    pub radius: f64,
-    /// Level or length in a cycle of the control, whatever way its tool goes, mm.
-    pub cycle: f64,
-    /// Feed, mm/min.
-    pub feed: f64,
-    /// Feed, mm a turn.
-    pub turn: f64,
-    /// Lead of a thread, mm.
-    pub lead: f64,
-    /// Feed in inverse time, blocks a minute.
-    pub inverse: f64,
-    /// Spindle speed, turns/min.
-    pub speed: f64,
-    /// Surface speed, m/min.
-    pub surface: f64,
-    /// Dwell, seconds.
-    pub dwell: f64,
-    /// Deviation allowed of a dwell, turns of the spindle.
-    pub turns: f64,
+    /// All others.
+    scalars: [f64; Quantity::ALL.len()],
 }
 
-impl Slack {
+/// A value of one number that a program writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Radius of an arc, mm.
+    Radius,
+    /// Level or length in a cycle of the control, whatever way its tool goes, mm.
+    Cycle,
+    /// Feed, mm/min.
+    Feed,
+    /// Feed, mm a turn.
+    FeedPerTurn,
+    /// Lead of a thread, mm.
+    Lead,
+    /// Feed in inverse time, blocks a minute.
+    InverseTime,
+    /// Spindle speed, turns/min.
+    Speed,
+    /// Surface speed, m/min.
+    SurfaceSpeed,
+    /// Dwell, seconds.
+    Dwell,
+    /// Dwell, turns of the spindle.
+    DwellTurns,
+}
+
+impl Quantity {
+    /// All of them, in their order.
+    const ALL: [Quantity; 10] = [
+        Quantity::Radius,
+        Quantity::Cycle,
+        Quantity::Feed,
+        Quantity::FeedPerTurn,
+        Quantity::Lead,
+        Quantity::InverseTime,
+        Quantity::Speed,
+        Quantity::SurfaceSpeed,
+        Quantity::Dwell,
+        Quantity::DwellTurns,
+    ];
+}
+
+impl Tolerances {
+    /// That of a value of one number.
+    pub fn of(&self, quantity: Quantity) -> f64 {
+        self.scalars[quantity as usize]
+    }
+
     /// A position of X, Y or Z, 0 to 2, as it is rounded before an output scale, mm.
     pub fn before_scale(&self, number: usize, position: f64) -> f64 {
         self.rounded[number].map_or(position, |digit| to_digit(position, digit))
@@ -128,7 +156,7 @@ impl<'c> Settings<'c> {
 
     /// The main spindle can become the axis C.
     pub fn is_mill_turn(&self) -> bool {
-        self.dialect.live_at_start.is_some()
+        self.dialect.turning.live_at_start.is_some()
     }
 
     /// How far the tip may leave its line while the machine turns where the CL file does not
@@ -156,7 +184,7 @@ impl<'c> Settings<'c> {
 
     /// The main spindle is the axis C when the program begins.
     pub fn begins_milling(&self) -> bool {
-        self.dialect.live_at_start == Some(true)
+        self.dialect.turning.live_at_start == Some(true)
     }
 
     /// Translation of the input, CL units.
@@ -211,7 +239,7 @@ impl<'c> Settings<'c> {
     }
 
     /// The last digits of the addresses in a program in mm or inch.
-    pub fn slack(&self, metric: bool) -> Slack {
+    pub fn slack(&self, metric: bool) -> Tolerances {
         let addresses = Addresses::from_commons(self.commons, metric);
         let unit = unit(metric);
         let half = |letter: Letter| match addresses.format(letter) {
@@ -244,27 +272,34 @@ impl<'c> Settings<'c> {
         });
         let mut linear = axes.map(|(letter, common)| of_axis(letter, common, unit) + by_hand);
         let outside_transformations = linear[0];
-        if self.dialect.transforms {
+        if self.dialect.has(Habit::Transforms) {
             // X is a radius in TRANSMIT and TRACYL.
             linear[0] = self.allowed(half(letters::XYZ[0]) * unit) + by_hand;
         }
-        Slack {
+        let scalar = |quantity: Quantity| match quantity {
+            Quantity::Radius => self.allowed(half(letters::R) * unit),
+            Quantity::Cycle => of_axis(letters::XYZ[2], 2, unit),
+            Quantity::Feed => half_of_feed(loc::FEED_UPM_FORMAT) * unit / self.feed_factor() + DUST,
+            Quantity::FeedPerTurn => half(letters::F) * unit + DUST,
+            Quantity::Lead => half_of_feed(loc::THREAD_LEAD_FORMAT) * unit + DUST,
+            Quantity::InverseTime => {
+                half_of_feed(loc::FEED_INVERSE_FORMAT) / self.inverse_factor() + DUST
+            }
+            Quantity::Speed => half(letters::S) + DUST,
+            Quantity::SurfaceSpeed => half(letters::S) * if metric { 1.0 } else { FOOT } + DUST,
+            Quantity::Dwell => self.dwell_slack(half, loc::DWELL_UPM_FORMAT, loc::DWELL_UPM_FACTOR),
+            Quantity::DwellTurns => {
+                self.dwell_slack(half, loc::DWELL_UPR_FORMAT, loc::DWELL_UPR_FACTOR)
+            }
+        };
+        Tolerances {
             linear,
             outside_transformations,
             kept,
             rounded: axes.map(|(letter, common)| Some(half(letter) * scaled(common)?)),
             rotary,
             center: letters::IJK.map(|letter| self.allowed(half(letter) * unit)),
-            radius: self.allowed(half(letters::R) * unit),
-            cycle: of_axis(letters::XYZ[2], 2, unit),
-            feed: half_of_feed(loc::FEED_UPM_FORMAT) * unit / self.feed_factor() + DUST,
-            turn: half(letters::F) * unit + DUST,
-            lead: half_of_feed(loc::THREAD_LEAD_FORMAT) * unit + DUST,
-            inverse: half_of_feed(loc::FEED_INVERSE_FORMAT) / self.inverse_factor() + DUST,
-            speed: half(letters::S) + DUST,
-            surface: half(letters::S) * if metric { 1.0 } else { FOOT } + DUST,
-            dwell: self.dwell_slack(half, loc::DWELL_UPM_FORMAT, loc::DWELL_UPM_FACTOR),
-            turns: self.dwell_slack(half, loc::DWELL_UPR_FORMAT, loc::DWELL_UPR_FACTOR),
+            scalars: Quantity::ALL.map(scalar),
         }
     }
 
@@ -422,7 +457,7 @@ impl<'c> Settings<'c> {
     pub fn written(&self) -> [bool; 3] {
         let [x, y, z] = letters::XYZ.map(|letter| self.writes(letter));
         // Y of TRANSMIT and TRACYL is no axis of the machine.
-        [x, y && !self.dialect.transforms, z]
+        [x, y && !self.dialect.has(Habit::Transforms), z]
     }
 
     fn writes(&self, letter: Letter) -> bool {

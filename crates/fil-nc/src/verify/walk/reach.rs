@@ -2,7 +2,7 @@
 
 use super::super::ahead::Steps;
 use super::super::gap::Gap;
-use super::super::settings::Slack;
+use super::super::settings::Tolerances;
 use super::Walk;
 use crate::forward::Pose;
 use crate::motion::{Move, Position};
@@ -55,7 +55,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The slack of a position that the axes come to: those that move are written.
     #[cold]
-    pub(in super::super) fn slack_of_moved(&self, from: &Position, to: &Position) -> Slack {
+    pub(in super::super) fn slack_of_moved(&self, from: &Position, to: &Position) -> Tolerances {
         let mut slack = self.slack;
         for n in (0..3).filter(|n| to.linear[*n] != from.linear[*n]) {
             slack.linear[n] -= slack.kept;
