@@ -314,7 +314,7 @@ fn hole_reach(point: [f64; 3], cycle: &Cycle, post: &Post) -> Extents {
 
 /// Turns of the spindle a minute, where the CL file gives them.
 fn turns_of(post: &Post) -> Option<f64> {
-    match post.control.speed {
+    match post.control.spindle.speed {
         Some(SpindleSpeed::Revolutions(turns)) => Some(turns),
         _ => None,
     }
