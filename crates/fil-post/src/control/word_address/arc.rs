@@ -5,7 +5,7 @@ use fil_machine::Letter;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::letters::{F, IJK};
 use fil_machine::locations::{
-    self as loc, CircleCenter, CircleCutcomPlane, CircleHelixOutput, CircleHelixWord,
+    self as loc, CircleCenter, CircleCutcomPlane, CircleHelixOutput, CircleHelixWord, ControlFamily,
 };
 use fil_machine::modes::Plane;
 use fil_machine::rounding::Rounding;
@@ -119,7 +119,9 @@ fn reads_at_a_glance(control: &Control, arc: &PlaneArc) -> bool {
 /// The same from the words as they will be written.
 fn reads_when_rounded(control: &Control, arc: &PlaneArc) -> Result<bool> {
     let axes = arc.plane.axes().map(|number| control.tables.axis(number));
-    let leaves_out = control.commons.read(loc::CIRCLE_AXES_MODAL);
+    // `C` of Klartext has both words.
+    let leaves_out = control.tables.family != ControlFamily::Klartext
+        && control.commons.read(loc::CIRCLE_AXES_MODAL);
     let start = arc.start;
     let mut end = arc.flat(&arc.to);
     let mut digit: f64 = 0.0;
