@@ -10,6 +10,9 @@ use crate::control_state::modal::{self, Source};
 use crate::control_state::{Length, Levels, Meaning, Place};
 use crate::errors::PostCode;
 
+/// Why a motion of a tool has no length.
+const OF_ANOTHER_TOOL: &str = "a text has changed the tool, and nothing calls its length";
+
 impl Control {
     /// Where an axis stands.
     pub fn place(&self, number: usize) -> Place {
@@ -81,9 +84,9 @@ impl Control {
     /// level of the doubt.
     #[cold]
     pub fn ready_length(&mut self) -> Result<()> {
-        let is_called = self.waiting.length_offset.is_some() || self.tables.tip_output;
+        let is_called = self.waiting.length_offset.is_some() || self.may_name_tip();
         let message = match self.state.length() {
-            Length::OfAnotherTool => "a text has changed the tool, and nothing calls its length",
+            Length::OfAnotherTool => OF_ANOTHER_TOOL,
             _ if is_called => return Ok(()),
             Length::Unsaid | Length::Called => return Ok(()),
             Length::Taken => "a text has taken the length of the tool off",
@@ -99,6 +102,23 @@ impl Control {
                 }
             },
         };
+        self.doubt_length(message)
+    }
+
+    /// What must hold before tool center point control, which takes up the length by itself: that
+    /// of the tool that LOADTL has changed.
+    ///
+    /// # Errors
+    /// A text has changed the tool: at the level of the doubt.
+    #[cold]
+    pub fn ready_tip_length(&mut self) -> Result<()> {
+        match self.state.length() {
+            Length::OfAnotherTool => self.doubt_length(OF_ANOTHER_TOOL),
+            _ => Ok(()),
+        }
+    }
+
+    fn doubt_length(&mut self, message: &str) -> Result<()> {
         self.doubt(Source::Author, PostCode::LengthTaken.diag(message))?;
         // The author's word: the control has the length that the CL file means.
         self.state.set(modal::LENGTH, Length::Unsaid);

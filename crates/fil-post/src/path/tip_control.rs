@@ -121,7 +121,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     frame::end(&mut post.control)?;
     post.path.frame = None;
     let control = &mut post.control;
-    control.ready_length()?;
+    control.ready_tip_length()?;
     let of_tool = control.tip.offset;
     if of_tool.is_none() && control.tables.family == ControlFamily::WordAddress {
         return PostCode::TipControl
