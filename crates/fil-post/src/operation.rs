@@ -31,6 +31,8 @@ pub struct Target {
 pub struct Feed {
     /// mm/min, inch/min, mm/rev or inch/rev.
     pub value: f64,
+    /// The same before the limits of the machine.
+    pub asked: f64,
     /// How it is meant.
     pub mode: FeedMode,
     /// The record that gave it.

@@ -161,7 +161,7 @@ impl Post {
     pub fn assume_feed(&mut self) {
         const SOME: f64 = 1.0;
         let (mode, cause) = (FeedMode::PerMinute, Cause::default());
-        self.path.feed.get_or_insert(Feed { value: SOME, mode, cause });
+        self.path.feed.get_or_insert(Feed { value: SOME, asked: SOME, mode, cause });
     }
 
     /// Ends the program if no FINI did.

@@ -52,15 +52,10 @@ impl<C: Steps> Walk<'_, C> {
                 let slack = self.slack_of_lead(found, a);
                 (a - b).abs() <= slack && (gains - others).abs() <= slack
             }
-            // A control that is told the pitch goes as fast as the spindle turns.
-            (Rate::PerMinute(a), Some(Rate::PerTurn(b))) if found.course == Course::Thread => {
-                let agrees =
-                    |speed: f64| (a - b * speed).abs() <= self.slack.of(Quantity::Feed) + PITCH * a;
-                found.modes.speed.and_then(Speed::turns).is_some_and(agrees)
-            }
-            // A cycle that knows feeds a minute only is told one at the speed of the spindle.
+            // In a cycle the same feed may be told by the minute, at the speed of the spindle: that
+            // of a tap, and of a control whose cycles know no other.
             (Rate::PerTurn(a), Some(Rate::PerMinute(b)))
-                if self.settings.feeds_holes_a_minute() || self.taps_by_a_live_tool(found) =>
+                if self.settings.feeds_holes_a_minute() || found.in_cycle =>
             {
                 let agrees = |speed: f64| (a * speed - b).abs() <= self.slack.of(Quantity::Feed);
                 found.modes.speed.and_then(Speed::turns).is_some_and(agrees)
@@ -153,12 +148,6 @@ impl<C: Steps> Walk<'_, C> {
             }
             Rate::Varying(..) => false,
         }
-    }
-
-    /// A turn of the main spindle is no measure while it is an axis: the turns of a cycle are
-    /// those of the live tool.
-    fn taps_by_a_live_tool(&self, found: &Move) -> bool {
-        found.in_cycle && self.settings.is_mill_turn() && self.modes.mills()
     }
 
     /// How far a lead may be off: a cycle that says it in a word of its own has more digits

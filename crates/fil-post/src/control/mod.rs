@@ -30,7 +30,7 @@ pub(crate) mod skip;
 mod speed_of_others;
 pub mod spindle;
 mod straight_rapid;
-mod tap;
+pub(crate) mod tap;
 mod texts;
 pub mod vectors;
 mod waiting;

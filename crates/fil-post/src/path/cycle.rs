@@ -26,7 +26,7 @@ impl CycleFeed {
     pub fn is_as_fast_as(&self, other: &Self) -> bool {
         match (self, other) {
             (CycleFeed::Feed(one), CycleFeed::Feed(two)) => {
-                one.value == two.value && one.mode == two.mode
+                one.value == two.value && one.asked == two.asked && one.mode == two.mode
             }
             (CycleFeed::Lead(one), CycleFeed::Lead(two)) => one.value == two.value,
             _ => false,

@@ -3,16 +3,16 @@
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 use fil_machine::locations::{self as loc, CycleBoreOut};
-use fil_machine::modes::{FeedMode, INCH};
+use fil_machine::modes::INCH;
 
 use super::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use super::rapid;
 use crate::cause::Cause;
 use crate::control::Control;
-use crate::control::family;
 use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::spindle;
+use crate::control::{family, tap};
 use crate::errors::PostCode;
 use crate::operation::{Dwell, Feed, Lead, SpindleSpeed};
 
@@ -75,17 +75,11 @@ fn lead_of(control: &Control, cycle: &Cycle) -> Result<Lead> {
         CycleFeed::Lead(lead) => return Ok(lead),
         CycleFeed::Feed(feed) => feed,
     };
-    let value = match (feed.mode, control.spindle.speed) {
-        (FeedMode::PerRevolution, Some(SpindleSpeed::Revolutions(_))) => feed.value,
-        (FeedMode::PerMinute, Some(SpindleSpeed::Revolutions(speed))) if speed > 0.0 => {
-            feed.value / control.upm_factor() / speed
-        }
-        _ => {
-            let usual = "a tap needs turns of the spindle (SPINDL / RPM)";
-            return PostCode::CycleForm.err(spindle::why_it_stands(control, usual));
-        }
-    };
-    Ok(Lead { value, cause: feed.cause })
+    if !matches!(control.spindle.speed, Some(SpindleSpeed::Revolutions(_))) {
+        let usual = "a tap needs turns of the spindle (SPINDL / RPM)";
+        return PostCode::CycleForm.err(spindle::why_it_stands(control, usual));
+    }
+    Ok(Lead { value: tap::pitch(control, cycle)?, cause: feed.cause })
 }
 
 fn cant_tap(control: &Control) -> Result<()> {

@@ -322,5 +322,5 @@ pub fn of_short_rapid(post: &Post, motion: &Motion, target: Target) -> Option<Fe
     }
     let length = length(post, way(post, motion), AxisSet::ALL, target)?;
     let cause = post.control.block.cause;
-    (length < short).then_some(Feed { value, mode: FeedMode::PerMinute, cause })
+    (length < short).then_some(Feed { value, asked: value, mode: FeedMode::PerMinute, cause })
 }

@@ -113,7 +113,7 @@ impl<'a> TurningFeed<'a> {
             }
         };
         let slowed = value.min(most);
-        let feed = Feed { value: slowed * factor, mode, cause: self.given.cause };
+        let feed = Feed { value: slowed * factor, mode, ..self.given };
         let limited = asked > 0.0 && time > asked * (1.0 + SAME_TIME);
         PartFeed { feed, slowed: limited || slowed < value, hastened }
     }

@@ -214,7 +214,10 @@ fn feed_of_fedrat(post: &mut Post, kind: CycleKind) -> Result<CycleFeed> {
         let message = format!("CYCLE/TAP: the feed {} of FEDRAT is that of the tap", feed.value);
         post.warn(PostCode::TapOfFedrat, message);
     }
-    within_that_of_z(post, feed, kind)
+    if kind == CycleKind::Tap {
+        return Ok(CycleFeed::Feed(feed));
+    }
+    Ok(CycleFeed::Feed(within_that_of_z(post, feed)))
 }
 
 /// The cycle's own feed: unit word and number, or TPI of a tap.
@@ -234,26 +237,24 @@ fn own_feed(post: &mut Post, items: &mut Items, kind: CycleKind) -> Result<Optio
         let feed = fedrat::in_output_units(post, value, Some(*unit))?;
         post.control.block.cause = cause;
         fedrat::warn_beside_second_spindle(post, feed);
+        if kind == CycleKind::Tap {
+            return Ok(Some(CycleFeed::Feed(fedrat::in_unit_of_control(post, feed))));
+        }
         let feed = fedrat::within_limits(post, feed);
-        return within_that_of_z(post, feed, kind).map(Some);
+        return Ok(Some(CycleFeed::Feed(within_that_of_z(post, feed))));
     }
     Ok(None)
 }
 
-/// A feed a minute within what Z may do; a tap's is bound to the spindle.
-fn within_that_of_z(post: &mut Post, feed: Feed, kind: CycleKind) -> Result<CycleFeed> {
-    let Some(largest) = post.control.tables.motion.largest_of[1] else {
-        return Ok(CycleFeed::Feed(feed));
-    };
+/// A feed per minute within what Z may do.
+fn within_that_of_z(post: &mut Post, feed: Feed) -> Feed {
+    let Some(largest) = post.control.tables.motion.largest_of[1] else { return feed };
     let largest = largest * post.control.commons.dbl_opt(loc::FEED_UPM_FACTOR).unwrap_or(1.0);
     if feed.mode != FeedMode::PerMinute || feed.value <= largest {
-        return Ok(CycleFeed::Feed(feed));
-    }
-    if kind == CycleKind::Tap {
-        return PostCode::CycleForm.err("the feed of the tap is above that of Z (feed.upm_max_z)");
+        return feed;
     }
     post.warn(PostCode::Clamped, format!("feed {} of a cycle became {largest}", feed.value));
-    Ok(CycleFeed::Feed(Feed { value: largest, ..feed }))
+    Feed { value: largest, ..feed }
 }
 
 /// The value of the first of these words, and where in the record it stands.

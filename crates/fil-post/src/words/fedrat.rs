@@ -103,7 +103,8 @@ pub fn in_output_units(post: &Post, value: f64, unit: Option<WordId>) -> Result<
         Some(w::UPR) => (1.0, FeedMode::PerRevolution),
         _ => (1.0, FeedMode::PerMinute),
     };
-    Ok(Feed { value: value * factor, mode, cause: post.control.block.cause })
+    let value = value * factor;
+    Ok(Feed { value, asked: value, mode, cause: post.control.block.cause })
 }
 
 /// Brings a feed per minute within the machine's range (DBLCOM 114, 120), with
@@ -120,5 +121,15 @@ pub fn within_limits(post: &mut Post, feed: Feed) -> Feed {
     if value != feed.value {
         post.warn(PostCode::Clamped, format!("feed {} became {value}", feed.value));
     }
-    Feed { value: value * factor, ..feed }
+    Feed { value: value * factor, asked: feed.value * factor, ..feed }
+}
+
+/// A feed per minute in the control's unit (DBLCOM 743), which the spindle binds: no limit
+/// changes it.
+pub fn in_unit_of_control(post: &Post, feed: Feed) -> Feed {
+    if feed.mode == FeedMode::PerRevolution {
+        return feed;
+    }
+    let value = feed.value * post.control.upm_factor();
+    Feed { value, asked: value, ..feed }
 }

@@ -99,6 +99,18 @@ impl State {
         hangs && cycle.turns.replace(turns).is_some_and(|before| before != turns)
     }
 
+    /// The feed of a hole; a tap at a feed per minute asks for its pitch at the speed of SPINDL.
+    fn rate_of_hole(&self, cycle: &Cycle) -> Option<Rate> {
+        match (cycle.rate, self.spindle.turns) {
+            (Some(Rate::PerMinute(rate)), Some(turns))
+                if cycle.kind == CycleKind::Tap && turns > 0.0 =>
+            {
+                Some(Rate::PerTurn(rate / turns))
+            }
+            (rate, _) => rate,
+        }
+    }
+
     fn hole(&self, cycle: &Cycle, start: Pose) -> Hole {
         let unit = self.unit();
         let mm = |length: Option<f64>| length.map(|length| length * unit);
@@ -110,7 +122,7 @@ impl State {
             retract: mm(cycle.retract),
             step: mm(cycle.step),
             dwell: cycle.dwell,
-            rate: cycle.rate,
+            rate: self.rate_of_hole(cycle),
             rigid: cycle.rigid,
         }
     }

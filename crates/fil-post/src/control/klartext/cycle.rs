@@ -277,7 +277,7 @@ fn tapping_feed(control: &Control, cycle: &Cycle) -> Result<String> {
     if control.klartext.clockwise.is_none() {
         return refuse("TAP before SPINDL: CYCL DEF 206 taps with the spindle that turns");
     }
-    let asked = motion::spelled(control, motion::a_minute(control, tap::pitch(control, cycle)?)?);
+    let asked = motion::spelled(control, tap::a_minute(control, cycle)?);
     let text = line::feed(control, asked)?;
     let written: f64 = text.parse().unwrap_or(0.0);
     if (written - asked).abs() > tap::SHARE * asked {

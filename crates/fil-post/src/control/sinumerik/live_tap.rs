@@ -74,7 +74,7 @@ pub fn tap(control: &mut Control, cycle: &Cycle, hole: &Hole) -> Result<()> {
 
 /// The spindle goes with the axis, and no feed counts its turns.
 fn feed_a_minute(control: &mut Control, cycle: &Cycle) -> Result<()> {
-    let feed = Feed { value: 1.0, mode: FeedMode::PerMinute, cause: cycle.cause };
+    let feed = Feed { value: 1.0, asked: 1.0, mode: FeedMode::PerMinute, cause: cycle.cause };
     motion::feed_mode(control, &feed)?;
     control.write_block()
 }

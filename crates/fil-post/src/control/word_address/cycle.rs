@@ -13,7 +13,7 @@ use fil_machine::rounding::Rounding;
 
 use super::motion::{self, Motion};
 use super::{dwell, modes, spindle};
-use crate::control::{Control, length_plane, sinumerik};
+use crate::control::{Control, length_plane, sinumerik, tap};
 use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
@@ -151,9 +151,6 @@ fn write_hole(
         return motion::write_motion(control);
     }
     modes::plane_of_its_own(control, Plane::across(hole.along))?;
-    if cycle.kind == CycleKind::Tap {
-        check_tap_speed(control, cycle)?;
-    }
     control.because(cycle.cause, |control| rigid_mode(control, cycle))?;
     control.because(cycle.cause, |control| codes(control, code, hole))?;
     for number in AxisSet::LINEAR.numbers().filter(|number| *number != hole.along) {
@@ -228,26 +225,6 @@ fn repeated_axes(control: &mut Control, across: &Motion, of: AxisSet) -> Result<
         motion::axis_word(control, number, across)?;
     }
     Ok(())
-}
-
-/// Refuses a tap whose feed a minute no longer fits its speed.
-///
-/// # Errors
-/// The machine has brought the speed within its range.
-fn check_tap_speed(control: &mut Control, cycle: &Cycle) -> Result<()> {
-    let (CycleFeed::Feed(feed), Some(asked @ SpindleSpeed::Revolutions(turns))) =
-        (cycle.feed, control.spindle.speed)
-    else {
-        return Ok(());
-    };
-    let speed = spindle::value_of(control, asked);
-    if feed.mode != FeedMode::PerMinute || speed == turns {
-        return Ok(());
-    }
-    PostCode::CycleForm.err(format!(
-        "a tap at a feed a minute, and its speed of {turns} turns became {speed}: the pitch would \
-         be another one"
-    ))
 }
 
 /// The block that puts the control in step with the spindle, before a rigid tap.
@@ -401,12 +378,8 @@ fn data_words(control: &mut Control, cycle: &Cycle, hole: &Hole) -> Result<()> {
     }
     dwell_word(control, cycle)?;
     let (feed, rounding) = match cycle.feed {
-        CycleFeed::Lead(lead) => {
-            let mode = FeedMode::PerRevolution;
-            (Feed { value: lead.value, mode, cause: lead.cause }, Rounding::Lead)
-        }
-        CycleFeed::Feed(feed) if cycle.kind == CycleKind::Tap => (feed, Rounding::Lead),
-        CycleFeed::Feed(feed) => (feed, Rounding::Rate),
+        CycleFeed::Feed(feed) if cycle.kind != CycleKind::Tap => (feed, Rounding::Rate),
+        _ => (tap::feed(control, cycle)?, Rounding::Lead),
     };
     motion::feed_mode(control, &feed)?;
     control.because(feed.cause, |control| control.word_rounded(F, feed.value, rounding))

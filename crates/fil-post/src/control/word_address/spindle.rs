@@ -18,9 +18,8 @@ use crate::control::{Control, Function, sinumerik};
 use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
 use crate::operation::{SideSpindle, Spindle, SpindleSpeed, SpindleTurn};
-pub(super) use range::speed_in_range;
-pub(in crate::control) use range::take_range_of;
 use range::{range_of, select_range, warn_of_limit, within_range};
+pub(in crate::control) use range::{speed_in_range, take_range_of};
 use turn::waits;
 pub use turn::{
     BEHIND_STOP, clockwise, clockwise_in_motion, may_stand_behind_change, may_stand_behind_stop,

@@ -13,12 +13,12 @@ use fil_machine::setting::CodeAt;
 
 use crate::control::Control;
 use crate::control::sinumerik::live_tap;
+use crate::control::tap;
 use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
-use crate::control::word_address::spindle;
 use crate::control_state::Rotation;
 use crate::errors::PostCode;
-use crate::operation::{Feed, SpindleSpeed};
+use crate::operation::Feed;
 use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use crate::path::{expand, rapid};
 
@@ -143,17 +143,10 @@ fn feed_of_tap(control: &mut Control, cycle: &Cycle, along: usize) -> Result<Fee
                 .err("how the live tool turns is not known here; SPINDL before the tap says it");
         }
     }
-    let Some(asked @ SpindleSpeed::Revolutions(turns)) = control.spindle.speed else {
-        return PostCode::CycleForm.err("a tap needs the turns of the live tool (SPINDL / RPM)");
+    let cause = match cycle.feed {
+        CycleFeed::Lead(lead) => lead.cause,
+        CycleFeed::Feed(feed) => feed.cause,
     };
-    let speed = spindle::value_of(control, asked);
-    let (lead, cause) = match cycle.feed {
-        CycleFeed::Lead(lead) => (lead.value, lead.cause),
-        CycleFeed::Feed(feed) if feed.mode == FeedMode::PerRevolution => (feed.value, feed.cause),
-        CycleFeed::Feed(feed) if feed.mode == FeedMode::PerMinute && turns > 0.0 => {
-            (feed.value / control.upm_factor() / turns, feed.cause)
-        }
-        CycleFeed::Feed(_) => return PostCode::CycleForm.err("a tap at inverse time"),
-    };
-    Ok(Feed { value: lead * speed * control.upm_factor(), mode: FeedMode::PerMinute, cause })
+    let value = tap::a_minute(control, cycle)?;
+    Ok(Feed { value, asked: value, mode: FeedMode::PerMinute, cause })
 }

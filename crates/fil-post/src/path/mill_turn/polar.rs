@@ -216,7 +216,7 @@ fn feed_of(post: &Post, kind: MotionKind) -> Result<Feed> {
     let Some(value) = value else {
         return PostCode::Polar.err("mill_turn.polar_rapid gives no feed for a rapid motion");
     };
-    Ok(Feed { value: value / mm, mode: FeedMode::PerMinute, cause })
+    Ok(Feed { value: value / mm, asked: value / mm, mode: FeedMode::PerMinute, cause })
 }
 
 /// Refuses an arc that passes the axis of the spindle, or that leaves the travel.
