@@ -83,7 +83,8 @@ impl Cut {
 /// The cuts of a program: motions with G01 that turn the part.
 ///
 /// # Errors
-/// A block that is no block, or a motion with G00 closer than `clear` to the axis.
+/// A block that is no block, a motion with G00 closer than `clear` to the axis, or a head that does
+/// not stand upright (A0): its disc would stand across the groove.
 pub fn cuts(nc: &str, clear: f64) -> Result<Vec<Cut>, String> {
     let mut at = [0.0; 4];
     let mut rapid = true;
@@ -96,6 +97,9 @@ pub fn cuts(nc: &str, clear: f64) -> Result<Vec<Cut>, String> {
             let value = word.number.value();
             match (word.letter, b"XYZC".iter().position(|letter| *letter == word.letter)) {
                 (b'G', _) if value == 0.0 || value == 1.0 => rapid = value == 0.0,
+                (b'A', _) if value != 0.0 => {
+                    return Err(format!("line {line}: the head stands at A{value}"));
+                }
                 (_, Some(axis)) if !block.words.iter().any(|word| word.letter == b'H') => {
                     at[axis] = value;
                     moves = true;

@@ -12,6 +12,12 @@ use nalgebra::Point3;
 /// Half the last digit of C on a cylinder of 150, and those of Y and Z.
 const NEAR: f64 = 0.002;
 
+/// The last digit of the coarsest CL file, mm.
+const COARSEST: f64 = 1e-3;
+
+/// How many random grids are posted, without FILPOST_EMBOS_GRIDS.
+const GRIDS: usize = 120;
+
 fn text(name: &str) -> String {
     fs::read_to_string(root().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
@@ -46,16 +52,21 @@ fn at_radius(cl: &str, radius: f64) -> Vec<Point3<f64>> {
         let numbers: Vec<f64> = numbers.split(", ").map(|n| n.parse().expect("a number")).collect();
         Point3::new(numbers[0], numbers[1], numbers[2])
     });
-    points.filter(|point| (point.x.hypot(point.z) - radius).abs() < 1e-6).collect()
+    points.filter(|point| (point.x.hypot(point.z) - radius).abs() < COARSEST).collect()
 }
 
 /// Each cut starts and ends at its points of the CL file, and its groove lies in the disc.
 fn judge(cl: &str, nc: &str, radius: f64) -> Result<Vec<Cut>, String> {
+    judge_digits(cl, nc, radius, 0.0)
+}
+
+/// The same of a CL file whose last digit is so large, mm.
+fn judge_digits(cl: &str, nc: &str, radius: f64, digit: f64) -> Result<Vec<Cut>, String> {
     let found = cuts(nc, radius + 1.0)?;
     let points = at_radius(cl, radius);
     for cut in &found {
         for spot in [cut.at(0.0), cut.at(1.0)] {
-            let near = points.iter().any(|point| (point - spot.in_part()).norm() < NEAR);
+            let near = points.iter().any(|point| (point - spot.in_part()).norm() < NEAR + digit);
             if !near {
                 return Err(format!("line {}: {spot:?} is no point of the groove", cut.line));
             }
@@ -94,17 +105,19 @@ fn the_groups_cross_at_right_angles() {
     }
 }
 
-/// A grid of a few grooves on a cylinder of any size, for one side.
-fn grid(random: &mut Random, side: f64) -> (String, f64) {
+/// A grid of a few grooves on a cylinder of any size, for one side, anywhere around it; points with
+/// so many decimals, and axes with eight or as many.
+fn grid(random: &mut Random, side: f64, decimals: usize) -> (String, f64) {
     let whole = |random: &mut Random, from: f64, to: f64| {
         (from + (random.unit() + 1.0) / 2.0 * (to - from)).round()
     };
+    let axis = decimals.max(8);
     let radius = whole(random, 15.0, 150.0);
     let group = if side > 0.0 { "EMBOSL" } else { "EMBOSR" };
     let mut cl =
         format!("PARTNO / 7\nUNITS / MM\nMULTAX / ON\nFEDRAT / 30, MMPM\nCYCLE / {group}\n");
     for _ in 0..3 {
-        let (mut angle, foot) = (60.0 * random.unit(), 40.0 * random.unit());
+        let (mut angle, foot) = (180.0 * random.unit(), 40.0 * random.unit());
         let count = whole(random, 2.0, 6.0) as usize;
         let step = 4.0 + 3.0 * random.unit();
         let mut point = |rapid: bool, at: f64, angle: f64| {
@@ -112,7 +125,8 @@ fn grid(random: &mut Random, side: f64) -> (String, f64) {
             let y = foot + side * radius * angle.to_radians();
             let before = if rapid { "RAPID\n" } else { "" };
             cl += &format!(
-                "{before}GOTO / {:.10}, {y:.10}, {:.10}, {sine:.10}, 0.0, {cosine:.10}\n",
+                "{before}GOTO / {:.decimals$}, {y:.decimals$}, {:.decimals$}, {sine:.axis$}, 0.0, \
+                 {cosine:.axis$}\n",
                 at * sine,
                 at * cosine
             );
@@ -132,16 +146,48 @@ fn grid(random: &mut Random, side: f64) -> (String, f64) {
 #[test]
 fn random_grids_lie_in_the_plane_of_the_disc() {
     let mut random = Random(5);
-    for index in 0..60 {
+    let grids = std::env::var("FILPOST_EMBOS_GRIDS").map_or(GRIDS, |count| {
+        count.parse().expect("FILPOST_EMBOS_GRIDS is how many grids are posted")
+    });
+    for index in 0..grids {
         let side = if index % 2 == 0 { 1.0 } else { -1.0 };
-        let (cl, radius) = grid(&mut random, side);
+        let decimals = 3 + index / 2 % 8;
+        let (cl, radius) = grid(&mut random, side, decimals);
+        let digit = 10.0_f64.powi(-(decimals as i32));
         let nc = post(&script(), &cl).unwrap_or_else(|error| panic!("{index}: {error}\n{cl}"));
-        let found =
-            judge(&cl, &nc, radius).unwrap_or_else(|fault| panic!("{index}: {fault}\n{nc}"));
+        let found = judge_digits(&cl, &nc, radius, digit)
+            .unwrap_or_else(|fault| panic!("{index}: {fault}\n{nc}"));
         assert!(found.len() >= 6, "{index}: {nc}");
         let turned =
             cl.replace("EMBOSL", "EMBOSX").replace("EMBOSR", "EMBOSL").replace("EMBOSX", "EMBOSR");
         assert!(post(&script(), &turned).is_err(), "{index}: the other side jams the disc");
+    }
+}
+
+/// A head whose travel allows it turned over is refused: it would reach the same tool axis with its
+/// disc across the groove.
+#[test]
+fn a_head_that_can_turn_over_is_refused() {
+    let machine = text("corpus/papers/embos-grooves/machine.toml");
+    let (cl, nc) = first();
+    let run = |machine: &str| {
+        let script = script();
+        let post =
+            Program::builder().machine("machine.toml", machine).fil("embos-grid.fil", &script);
+        let mut nc = Vec::new();
+        post.build().and_then(|post| post.run(cl.as_bytes(), &mut nc)).map(|_| nc)
+    };
+    assert_eq!(run(&machine).expect("it is posted"), nc.as_bytes());
+    for (from, to) in [
+        ("secondary_min = -180", "secondary_min = -270"),
+        ("secondary_max = 0", "secondary_max = 1"),
+        ("secondary_min = -180\n", ""),
+        ("secondary_max = 0\n", ""),
+    ] {
+        let changed = machine.replace(from, to);
+        assert_ne!(changed, machine, "{from} is not in the machine");
+        let error = run(&changed).expect_err(to).to_string();
+        assert!(error.contains("the head can turn over"), "{from}: {error}");
     }
 }
 
