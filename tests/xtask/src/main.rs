@@ -1,5 +1,9 @@
 //! What those who work on filpost run: `cargo xtask COMMAND`.
 
+#[cfg(test)]
+mod architecture;
+mod code;
+mod metrics;
 mod shadow;
 
 use std::process::ExitCode;
@@ -10,11 +14,13 @@ use clap::Parser;
 #[derive(Parser)]
 #[command(name = "cargo xtask", about = "Tools for work on filpost")]
 enum Command {
+    Metrics(metrics::Args),
     Shadow(shadow::Args),
 }
 
 fn main() -> ExitCode {
     let done = match Command::parse() {
+        Command::Metrics(args) => metrics::command(&args),
         Command::Shadow(args) => shadow::command(&args),
     };
     done.unwrap_or_else(|said| {
