@@ -19,7 +19,9 @@ pub(crate) struct Taken {
 impl Taken {
     /// A record has become current; those behind it come again, if the section went back.
     pub fn is_current(&mut self, record: &Record, post: &Post) {
-        self.motions.retain(|(number, _)| *number < record.number);
+        while self.motions.last().is_some_and(|(number, _)| *number >= record.number) {
+            self.motions.pop();
+        }
         if moves(record) {
             self.motions.push((record.number, post.waits_for_motion()));
         }
@@ -27,7 +29,10 @@ impl Taken {
 
     /// The post has carried out a record of the CL file.
     pub fn is_posted(&mut self, record: &Record) {
-        self.motions.retain(|(number, _)| *number != record.number);
+        let found = self.motions.binary_search_by_key(&record.number, |(number, _)| *number);
+        if let Ok(at) = found {
+            self.motions.remove(at);
+        }
     }
 }
 
