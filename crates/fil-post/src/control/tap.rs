@@ -139,9 +139,8 @@ fn refuse_outside_limits(control: &Control, feed: f64, speed: f64) -> Result<()>
     if speed > 0.0 {
         let turns = speed * limit / value;
         let turns = if word == "lowest" { turns.ceil() } else { turns.floor() };
-        diag.hint = Some(
-            format!("The {word} speed that keeps this pitch is SPINDL / RPM, {turns}.").into(),
-        );
+        diag.hint =
+            Some(format!("The {word} speed that keeps this pitch is SPINDL / RPM, {turns}."));
     }
     Err(diag)
 }
