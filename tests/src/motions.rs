@@ -194,34 +194,34 @@ fn motion_line(motion: &Move) -> String {
 
 fn modes_line(modes: &Modes) -> String {
     let mut line = format!("modes T{}", modes.tool);
-    if let Some(offset) = modes.length_offset {
+    if let Some(offset) = modes.length.offset {
         line += &format!(" H{offset}");
     }
-    if modes.tip_control {
+    if modes.frame.tip_control {
         line += " tip-control";
     }
-    if let Some((normal, _)) = modes.plane {
+    if let Some((normal, _)) = modes.planes.unusual {
         line += [" YZ", " ZX", " XY"][normal];
     }
-    match modes.speed {
+    match modes.spindle.speed {
         Some(Speed::Turns(speed)) => line += &format!(" S{}", number(speed)),
         Some(Speed::Surface(speed)) => line += &format!(" surface S{}", number(speed)),
         None => {}
     }
-    if let Some(limit) = modes.speed_limit {
+    if let Some(limit) = modes.spindle.speed_limit {
         line += &format!(" up to S{}", number(limit));
     }
-    line += match modes.spindle {
+    line += match modes.spindle.turn {
         Spindle::Off => "",
         Spindle::Clockwise => " cw",
         Spindle::Counterclockwise => " ccw",
     };
-    line += match modes.compensation {
+    line += match modes.compensation.side {
         Compensation::Off => "",
         Compensation::Left => " left",
         Compensation::Right => " right",
     };
-    if let Some(fixture) = modes.fixture {
+    if let Some(fixture) = modes.frame.fixture {
         line += &format!(" G{fixture}");
     }
     if let Some(code) = modes.coolant {

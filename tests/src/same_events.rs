@@ -1,7 +1,7 @@
 //! Whether two programs make a machine do the same.
 
 use fil_nc::forward::Forward;
-use fil_nc::motion::{Arc, Event, Modes, Move, Position, Rate};
+use fil_nc::motion::{Arc, Event, Modes, Move, Position, Rate, Unsaid};
 
 /// How far two ways may lie apart that are one: twice the last digit of a program in mm,
 /// once for the rounded end of a part of an arc and once for the center it gives.
@@ -37,8 +37,10 @@ pub fn near_poses(one: &[Event], other: &[Event], forward: &Forward) -> bool {
 /// The event, in which what is on may have been switched on once more behind a stop.
 fn said_again(event: &Event, other: &Event) -> Event {
     let both = |modes: Modes, other: &Modes| Modes {
-        spindle_unsaid: modes.spindle_unsaid || other.spindle_unsaid,
-        coolant_unsaid: modes.coolant_unsaid || other.coolant_unsaid,
+        unsaid: Unsaid {
+            spindle: modes.unsaid.spindle || other.unsaid.spindle,
+            coolant: modes.unsaid.coolant || other.unsaid.coolant,
+        },
         ..modes
     };
     match (*event, other) {

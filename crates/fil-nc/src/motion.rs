@@ -153,7 +153,7 @@ pub enum Compensation {
 /// What the number of a work offset that a word chooses is counted from.
 pub const WORD_OFFSETS: u32 = 1_000_000;
 
-/// A work offset by its name in a program, as [`Modes::fixture`] counts it: `G54`,
+/// A work offset by its name in a program, as [`FrameModes::fixture`] counts it: `G54`,
 /// `G54.1P3`, or another letter with a number for one that a word chooses.
 pub fn work_offset(name: &str) -> Option<u32> {
     let name = name.to_ascii_uppercase();
@@ -195,46 +195,25 @@ impl std::fmt::Display for OtherPlane {
     }
 }
 
-/// What is in force besides the motion itself.
+/// The tool length offset.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Modes {
-    /// Number of the tool in the spindle; 0 before the first change.
-    pub tool: u32,
-    /// Number of the length offset; `None` when off.
-    pub length_offset: Option<u32>,
+pub struct LengthModes {
+    /// Its number; `None` when off.
+    pub offset: Option<u32>,
     /// An `H` that stands after a tool change without the function of the length offset:
     /// whether it acts is not certain. `None` after that function.
-    pub stray_offset: Option<u32>,
+    pub stray: Option<u32>,
     /// No function has called the length of the tool, or given it up, since the tool was changed by
     /// its function, on a machine that has one for it.
-    pub length_unsaid: bool,
-    /// Tool-tip control is on.
-    pub tip_control: bool,
-    /// The line where it began last.
-    pub tip_control_line: u32,
-    /// A tilted frame is in force.
-    pub tilted: bool,
-    /// Cutter compensation.
-    pub compensation: Compensation,
-    /// Number of its offset; `None` when off or not said.
-    pub compensation_offset: Option<u32>,
-    /// Spindle.
-    pub spindle: Spindle,
-    /// The control counts the second spindle of a lathe, or the main one; `None` before anything
-    /// has said it. Spindle, speed, range and limit are those of the one that is counted.
-    pub counts_side: Option<bool>,
-    /// The spindle of the lathe that is not counted.
-    pub other_spindle: Spindle,
-    /// Angle of the oriented spindle, degrees; `None` when it turns or none was given.
-    pub orientation: Option<f64>,
-    /// Spindle range that the program has chosen last, from 1.
-    pub spindle_range: Option<u8>,
-    /// Spindle speed; `None` before the first, and after a change between turns and
-    /// surface speed.
-    pub speed: Option<Speed>,
-    /// What surface speed may turn the spindle up to, turns/min; `None` before the first
-    /// limit.
-    pub speed_limit: Option<f64>,
+    pub uncalled: bool,
+    /// The plane in which a mill has taken up the length that is in force by its function, where it
+    /// lies across the tool there: some controls count it square to that plane.
+    pub plane: Option<OtherPlane>,
+}
+
+/// What the positions of a program count in.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrameModes {
     /// The work offset: its preparatory function (54 for `G54`), for a numbered one of a
     /// function its tenths and the number (541003 for `G54.1 P3`), for one of a word
     /// 1000000 and the number.
@@ -242,32 +221,97 @@ pub struct Modes {
     /// Line of the statement that has moved the zero away from that of the work offset, without
     /// where the axes stand being followed; `None` where it lies there.
     pub moved_zero: Option<u32>,
+    /// A tilted work plane is in force.
+    pub tilted: bool,
+    /// Tool center point control is on.
+    pub tip_control: bool,
+    /// The line where it began last.
+    pub tip_control_line: u32,
+}
+
+/// Cutter compensation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CompensationModes {
+    /// Its side.
+    pub side: Compensation,
+    /// Number of its offset; `None` when off or not said.
+    pub offset: Option<u32>,
+    /// The plane in force, by the index of its normal, while it is on; of motions alone.
+    pub plane: Option<usize>,
+}
+
+/// A spindle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SpindleModes {
+    /// How it turns.
+    pub turn: Spindle,
+    /// Angle of the oriented spindle, degrees; `None` when it turns or none was given.
+    pub orientation: Option<f64>,
+    /// Range that the program has chosen last, from 1.
+    pub range: Option<u8>,
+    /// Its speed; `None` before the first, and after a change between turns and surface speed.
+    pub speed: Option<Speed>,
+    /// What surface speed may turn it up to, turns/min; `None` before the first limit.
+    pub speed_limit: Option<f64>,
+}
+
+/// Which spindle of a lathe is the master spindle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MasterModes {
+    /// The sub-spindle, or the main one; `None` before anything has said it.
+    pub is_side: Option<bool>,
+    /// How the spindle turns that is not the master.
+    pub other: Spindle,
+}
+
+/// Planes that are not as they must be; of motions alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PlaneModes {
+    /// A plane other than XY that the program of a mill has said, by the index of its normal,
+    /// and the line of that.
+    pub unusual: Option<(usize, u32)>,
+    /// The plane that the program of a SINUMERIK is in, where its motion needs another.
+    pub other: Option<OtherPlane>,
+}
+
+/// What no word has switched since a tool was changed by its function, or since a stop, where many
+/// machines switch it off.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Unsaid {
+    /// The spindle.
+    pub spindle: bool,
+    /// The coolant.
+    pub coolant: bool,
+}
+
+/// What is in force besides the motion itself, by modal group.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Modes {
+    /// Number of the tool in the spindle; 0 before the first change.
+    pub tool: u32,
+    /// Its length.
+    pub length: LengthModes,
+    /// The coordinate system.
+    pub frame: FrameModes,
+    /// Cutter compensation.
+    pub compensation: CompensationModes,
+    /// The master spindle.
+    pub spindle: SpindleModes,
+    /// Which one that is, and what the other one of a lathe does.
+    pub master: MasterModes,
     /// Line of the last statement that changes how closely and how smoothly the path is followed
     /// (exact stops, tolerances), or what the feed of an arc counts at.
     pub path_control: Option<u32>,
-    /// A plane other than XY that the program of a mill has said, by the index of its normal,
-    /// and the line of that; of motions alone.
-    pub plane: Option<(usize, u32)>,
-    /// The plane that the program of a SINUMERIK is in, where its motion needs another; of motions
-    /// alone.
-    pub other_plane: Option<OtherPlane>,
-    /// The plane in which a mill has taken up the length that is in force by its function, where it
-    /// lies across the tool there: some controls count it square to that plane.
-    pub length_plane: Option<OtherPlane>,
-    /// The plane in force, by the index of its normal, while cutter compensation is on; of motions
-    /// alone.
-    pub compensation_plane: Option<usize>,
+    /// Planes that are not as they must be.
+    pub planes: PlaneModes,
     /// Lengths of the program are inches.
     pub inch: bool,
     /// A drilling cycle is on; said where a tool is changed and at the end.
     pub cycle: bool,
     /// The auxiliary function of the coolant that was switched on last; `None` when off.
     pub coolant: Option<u32>,
-    /// No word has switched the spindle since a tool was changed by its function, or since a
-    /// stop: many machines stop it there.
-    pub spindle_unsaid: bool,
-    /// The same of the coolant.
-    pub coolant_unsaid: bool,
+    /// What is not switched anew since the tool change or stop.
+    pub unsaid: Unsaid,
 }
 
 /// A single motion from where the axes stand to `to`; [`Forward::along`] says how it

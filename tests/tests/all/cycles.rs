@@ -77,7 +77,7 @@ fn acts(cl: &str, cycles: bool, more: &[String]) -> (String, Vec<Act>) {
                 course,
                 to: [to[0], to[1], to[2]],
                 rate,
-                spindle: found.modes.spindle,
+                spindle: found.modes.spindle.turn,
             })
         }
         Event::Dwell { seconds, .. } => Some(Act::Dwells(seconds.unwrap_or(0.0))),

@@ -159,7 +159,7 @@ impl State<'_> {
         if !moves {
             return self.feed_word(words);
         }
-        if self.modes.tip_control {
+        if self.modes.frame.tip_control {
             self.check_tip_motion()?;
         }
         match self.motion {

@@ -7,16 +7,7 @@ use super::state::State;
 use super::words::Words;
 use crate::dialect::Auxiliary;
 use crate::errors::NcCode;
-use crate::motion::{Speed, Spindle};
-
-/// What holds of a spindle while the other one is counted, besides how it turns.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct OtherSpindle {
-    speed: Option<Speed>,
-    limit: Option<f64>,
-    range: Option<u8>,
-    orientation: Option<f64>,
-}
+use crate::motion::Spindle;
 
 fn refuse<T>(why: &str) -> Result<T, Fault> {
     Err(Fault::new(NcCode::NoMeaning, why))
@@ -28,27 +19,26 @@ impl State<'_> {
         if self.surface {
             return refuse("another spindle is counted while S is a surface speed");
         }
-        let before = self.modes.counts_side.replace(side) == Some(true);
+        let before = self.modes.master.is_side.replace(side) == Some(true);
         if before == side {
             return Ok(());
         }
-        let (modes, other) = (&mut self.modes, &mut self.other_spindle);
-        std::mem::swap(&mut modes.spindle, &mut modes.other_spindle);
-        std::mem::swap(&mut modes.speed, &mut other.speed);
-        std::mem::swap(&mut modes.spindle_range, &mut other.range);
-        std::mem::swap(&mut modes.orientation, &mut other.orientation);
-        if self.dialect.turning.counted.has_own_limits {
-            std::mem::swap(&mut modes.speed_limit, &mut other.limit);
+        let (master, other) = (&mut self.modes.spindle, &mut self.other_spindle);
+        other.turn = self.modes.master.other;
+        std::mem::swap(master, other);
+        if !self.dialect.turning.counted.has_own_limits {
+            std::mem::swap(&mut master.speed_limit, &mut other.speed_limit);
         }
+        self.modes.master.other = other.turn;
         Ok(())
     }
 
     /// The codes of one spindle turn that one, counted or not.
     pub(super) fn turn_one(&mut self, side: bool, turn: Spindle) {
-        let is_counted = (self.modes.counts_side == Some(true)) == side;
+        let is_counted = (self.modes.master.is_side == Some(true)) == side;
         match is_counted || !self.dialect.turning.counted.has_own_codes {
             true => self.turn_spindle(turn),
-            false => self.modes.other_spindle = turn,
+            false => self.modes.master.other = turn,
         }
     }
 

@@ -187,24 +187,24 @@ impl State<'_> {
         if let Some(seconds) = cycle.dwell.filter(|seconds| cycle.dwells && *seconds > 0.0) {
             self.events.push(Event::Dwell { line: self.line, seconds: Some(seconds), turns: None });
         }
-        let turning = self.modes.spindle;
+        let turning = self.modes.spindle.turn;
         let rate = Some(self.rate()?);
         match cycle.kind {
             CycleKind::Tap | CycleKind::TapLeft => {
-                self.modes.spindle = out_of_a_tap(cycle.kind, turning);
+                self.modes.spindle.turn = out_of_a_tap(cycle.kind, turning);
                 self.step(&[(hole.axis, hole.clear)], Course::Feed, rate);
             }
             CycleKind::FeedOut => {
                 self.step(&[(hole.axis, hole.clear)], Course::Feed, rate);
             }
-            CycleKind::StopOut => self.modes.spindle = Spindle::Off,
+            CycleKind::StopOut => self.modes.spindle.turn = Spindle::Off,
             CycleKind::Drill | CycleKind::Peck | CycleKind::BreakChips => {}
         }
         let rest = if self.return_initial { cycle.initial } else { hole.clear };
         // Where the tool rests behind another zero is known as little as where it came from.
         self.known[hole.axis] = !self.return_initial || cycle.initial_known;
         self.step(&[(hole.axis, rest)], Course::Rapid, None);
-        self.modes.spindle = turning;
+        self.modes.spindle.turn = turning;
         Ok(())
     }
 }

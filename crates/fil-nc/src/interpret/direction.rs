@@ -58,7 +58,7 @@ impl State<'_> {
                 "controls differ in what a part of the tool's direction is that is not said";
             return Err(Fault::new(NcCode::MissingWord, message));
         };
-        if !self.modes.tip_control {
+        if !self.modes.frame.tip_control {
             let message = "the direction of the tool is a vector without tool-tip control";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }

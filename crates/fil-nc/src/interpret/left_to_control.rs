@@ -48,12 +48,12 @@ impl State<'_> {
                 counts_lengths
                     || found.arc.is_some()
                     || of_cycle(found)
-                    || found.modes.compensation != Compensation::Off
+                    || found.modes.compensation.side != Compensation::Off
             }),
             StartMode::ReturnLevel => {
                 self.cycle.is_some_and(|cycle| !cycle.keeps_its_level()) && any(&of_cycle)
             }
-            StartMode::Surface => uses.speed && self.modes.speed.is_some(),
+            StartMode::Surface => uses.speed && self.modes.spindle.speed.is_some(),
         }
     }
 }

@@ -33,13 +33,13 @@ impl State<'_> {
     /// The main spindle becomes the axis C or a spindle again; it must stand, and so must the
     /// live tool.
     pub(super) fn change_spindle(&mut self, on: bool, code: u32) -> Result<(), Fault> {
-        if self.modes.spindle != Spindle::Off {
+        if self.modes.spindle.turn != Spindle::Off {
             return refuse("the main spindle changes its mode while a spindle turns");
         }
         if self.polar || self.cylinder.is_some() {
             return refuse("the main spindle changes its mode within an interpolation");
         }
-        self.modes.speed = None;
+        self.modes.spindle.speed = None;
         self.live = on;
         self.at[C] = 0.0;
         self.known[C] = !on;
@@ -78,7 +78,7 @@ impl State<'_> {
         if self.dialect.turning.live_at_start.is_none() {
             return Ok(());
         }
-        let turns = self.modes.spindle != Spindle::Off;
+        let turns = self.modes.spindle.turn != Spindle::Off;
         if self.live && self.surface && turns {
             return refuse("a surface speed of a live tool");
         }
@@ -114,7 +114,7 @@ impl State<'_> {
         if !self.live {
             return refuse("the main spindle is no axis");
         }
-        if self.modes.compensation != Compensation::Off {
+        if self.modes.compensation.side != Compensation::Off {
             return refuse("an interpolation begins or ends under cutter compensation");
         }
         if self.cycle.is_some() {

@@ -89,7 +89,7 @@ impl State<'_> {
 
     /// The work offset is another one than that in force, or nobody has said which that is.
     pub(super) fn moves_fixture(&self, code: u32) -> bool {
-        self.modes.fixture != Some(code)
+        self.modes.frame.fixture != Some(code)
     }
 
     /// Another work offset: where the axes stand in it is not known.
@@ -103,7 +103,7 @@ impl State<'_> {
                 self.known[axis] = false;
             }
         }
-        self.modes.fixture = Some(code);
+        self.modes.frame.fixture = Some(code);
     }
 
     /// Cutter compensation and tool length.
@@ -116,24 +116,24 @@ impl State<'_> {
             self.compensate(side, offset)?;
         }
         let says_length = words.function(Group::Length);
-        self.modes.length_unsaid &= says_length.is_none();
+        self.modes.length.uncalled &= says_length.is_none();
         match says_length {
             Some(Function::Length(true)) => {
                 let offset = words.take_whole(H)?;
                 let missing = || Fault::new(NcCode::MissingWord, "the length offset needs its H");
-                self.modes.length_offset = Some(offset.ok_or_else(missing)?);
-                self.modes.stray_offset = None;
+                self.modes.length.offset = Some(offset.ok_or_else(missing)?);
+                self.modes.length.stray = None;
                 self.length_is_on = true;
                 let along_z = self.dialect.takes_up_lengths_along_z();
-                self.modes.length_plane = self.plane_but(DRILLED).filter(|_| along_z);
+                self.modes.length.plane = self.plane_but(DRILLED).filter(|_| along_z);
             }
             Some(Function::TipControl) => self.begin_tip_control(words, false)?,
             Some(Function::TipControlByDirection) => self.begin_tip_control(words, true)?,
             Some(_) => {
                 words.take_whole(H)?;
-                self.modes.length_offset = None;
-                self.modes.stray_offset = None;
-                self.modes.length_plane = None;
+                self.modes.length.offset = None;
+                self.modes.length.stray = None;
+                self.modes.length.plane = None;
                 self.end_tip_control();
             }
             // A tool change may end the function: then H alone is not certain to act.
@@ -142,10 +142,10 @@ impl State<'_> {
                 words.peek(Group::Once),
                 Some(Function::ThreadPassesByPitch | Function::ThreadPassesByHeight)
             ) => {}
-            None if self.modes.length_offset.is_some() && words.has(H) => {
+            None if self.modes.length.offset.is_some() && words.has(H) => {
                 let offset = words.take_whole(H)?;
-                self.modes.length_offset = offset.filter(|_| self.length_is_on);
-                self.modes.stray_offset = offset.filter(|_| !self.length_is_on);
+                self.modes.length.offset = offset.filter(|_| self.length_is_on);
+                self.modes.length.stray = offset.filter(|_| !self.length_is_on);
             }
             None => {}
         }
@@ -157,13 +157,13 @@ impl State<'_> {
     pub(super) fn tool_and_spindle(&mut self, words: &mut Words) -> Result<(), Fault> {
         if let Some(Function::Surface(on)) = words.function(Group::Surface) {
             if on != self.surface {
-                self.modes.speed = None;
+                self.modes.spindle.speed = None;
             }
             self.surface = on;
             self.certain.say(StartMode::Surface);
             let letter = self.dialect.letter(Role::SpeedLimit);
             if on && letter > 0 {
-                self.modes.speed_limit = words.take(letter)?;
+                self.modes.spindle.speed_limit = words.take(letter)?;
             }
         }
         if words.peek(Group::Once) == Some(Function::SpeedLimit) {
@@ -178,7 +178,7 @@ impl State<'_> {
         let stops = words.auxiliaries.iter().any(|(a, _)| *a == Auxiliary::SpindleOff);
         let oriented = orients || stops;
         if let Some(speed) = words.take(S)?.filter(|_| !oriented) {
-            self.modes.speed = Some(match self.surface {
+            self.modes.spindle.speed = Some(match self.surface {
                 true => Speed::Surface(speed * if self.metric { 1.0 } else { FOOT }),
                 false => Speed::Turns(speed),
             });
@@ -201,9 +201,9 @@ impl State<'_> {
                 Auxiliary::SpindleOff => self.turn_one(false, Spindle::Off),
                 Auxiliary::Orient => {
                     self.turn_spindle(Spindle::Off);
-                    self.modes.orientation = orientation;
+                    self.modes.spindle.orientation = orientation;
                 }
-                Auxiliary::SpindleRange(range) => self.modes.spindle_range = Some(*range),
+                Auxiliary::SpindleRange(range) => self.modes.spindle.range = Some(*range),
                 Auxiliary::Coolant(on) => self.cool(*on),
                 _ => {}
             }
@@ -219,11 +219,11 @@ impl State<'_> {
             self.known[word.axis] = false;
         }
         if !placed.is_empty() {
-            self.modes.moved_zero = Some(self.line);
+            self.modes.frame.moved_zero = Some(self.line);
         }
         let missing = || Fault::new(NcCode::MissingWord, "the speed limit needs its S");
         match words.take(S)? {
-            Some(limit) => self.modes.speed_limit = Some(limit),
+            Some(limit) => self.modes.spindle.speed_limit = Some(limit),
             None if placed.is_empty() => return Err(missing()),
             None => {}
         }
@@ -231,21 +231,21 @@ impl State<'_> {
     }
 
     pub(super) fn turn_spindle(&mut self, spindle: Spindle) {
-        self.modes.spindle = spindle;
-        self.modes.orientation = None;
-        self.modes.spindle_unsaid = false;
+        self.modes.spindle.turn = spindle;
+        self.modes.spindle.orientation = None;
+        self.modes.unsaid.spindle = false;
     }
 
     /// Switches the coolant of a function on, or all of it off.
     pub(super) fn cool(&mut self, coolant: Option<u32>) {
         self.modes.coolant = coolant;
-        self.modes.coolant_unsaid = false;
+        self.modes.unsaid.coolant = false;
     }
 
     /// A change or a stop, where many machines stop spindle and coolant.
     fn leaves_unsaid(&mut self) {
-        self.modes.spindle_unsaid = true;
-        self.modes.coolant_unsaid = true;
+        self.modes.unsaid.spindle = true;
+        self.modes.unsaid.coolant = true;
     }
 
     /// An auxiliary function that is told as it is.
@@ -266,14 +266,14 @@ impl State<'_> {
         side: Compensation,
         offset: Option<u32>,
     ) -> Result<(), Fault> {
-        let switches = side != self.modes.compensation;
+        let switches = side != self.modes.compensation.side;
         if switches && side != Compensation::Off && self.compensation_rests {
             let message = "cutter compensation is switched twice, and nothing moves in between";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }
         self.compensation_rests |= switches;
-        self.modes.compensation = side;
-        self.modes.compensation_offset = offset;
+        self.modes.compensation.side = side;
+        self.modes.compensation.offset = offset;
         Ok(())
     }
 
@@ -303,7 +303,7 @@ impl State<'_> {
                     let message = "T takes the nose of another offset than its own";
                     return Err(Fault::new(NcCode::NoMeaning, message));
                 }
-                self.modes.length_offset = Some(number % 100).filter(|offset| *offset > 0);
+                self.modes.length.offset = Some(number % 100).filter(|offset| *offset > 0);
                 self.change(number / 100);
             }
             (ToolCall::Word, Some(number)) => self.change(number),
@@ -323,7 +323,7 @@ impl State<'_> {
         let modes = Modes { cycle: self.cycle.is_some(), ..self.modes };
         self.events.push(Event::ToolChange { line: self.line, tool, modes });
         self.length_is_on = false;
-        self.modes.length_unsaid = self.dialect.has(Habit::CallsLengths);
+        self.modes.length.uncalled = self.dialect.has(Habit::CallsLengths);
         if self.modes.tool != tool && self.dialect.family != Family::WordAddress {
             // The change is a program of the builder, which may leave the axes elsewhere, and
             // brings the length of the tool: its tip is not where the last one was.

@@ -1,15 +1,14 @@
 //! What the control remembers from block to block.
 
 use super::Fault;
-use super::counted::OtherSpindle;
 use super::cycle::Cycle;
 use super::thread::{Pass, Setup};
 use super::words::{AxisWord, Words};
 use crate::dialect::{Amount, Certain, Dialect, FeedMode, Function, Habit};
 use crate::errors::NcCode;
 use crate::motion::{
-    Arc, Compensation, Course, DRILLED, Event, Modes, Move, OtherPlane, Position, Rate, StartMode,
-    Tilt, unit,
+    Arc, Compensation, Course, DRILLED, Event, Modes, Move, OtherPlane, PlaneModes, Position, Rate,
+    SpindleModes, StartMode, Tilt, unit,
 };
 
 /// X, Y, Z in mm, primary and secondary rotary axis in degrees.
@@ -74,7 +73,7 @@ pub(super) struct State<'d> {
     pub(super) next_tool: Option<u32>,
     pub(super) modes: Modes,
     /// The spindle that is not counted.
-    pub(super) other_spindle: OtherSpindle,
+    pub(super) other_spindle: SpindleModes,
     /// Events of the block; they count when the whole block has a meaning.
     pub(super) events: Vec<Event>,
     /// The words of the block before, whose memory is used again.
@@ -123,7 +122,7 @@ impl<'d> State<'d> {
             setup: None,
             next_tool: None,
             modes: Modes { inch: !dialect.has(Habit::Metric), ..Modes::default() },
-            other_spindle: OtherSpindle::default(),
+            other_spindle: SpindleModes::default(),
             events: Vec::new(),
             words: Words::default(),
         }
@@ -249,8 +248,10 @@ impl<'d> State<'d> {
             !usual && !self.dialect.is_lathe() && !self.dialect.counts_lengths_in_plane();
         let plane = is_other.then_some((self.said_plane, self.plane_line));
         let other_plane = self.other_plane().filter(|_| course != Course::Machine);
-        let is_compensated = self.modes.compensation != Compensation::Off;
-        let compensation_plane = is_compensated.then_some(self.plane);
+        let is_compensated = self.modes.compensation.side != Compensation::Off;
+        let mut modes = self.modes;
+        modes.planes = PlaneModes { unusual: plane, other: other_plane };
+        modes.compensation.plane = is_compensated.then_some(self.plane);
         let transformed =
             self.dialect.has(Habit::Transforms) && (self.polar || self.cylinder.is_some());
         self.events.push(Event::Move(Move {
@@ -259,7 +260,7 @@ impl<'d> State<'d> {
             to: Position {
                 linear: [x, y, z],
                 rotary: [primary, secondary],
-                tip_control: self.modes.tip_control,
+                tip_control: self.modes.frame.tip_control,
                 tilt: self.tilt,
                 transformed,
             },
@@ -268,7 +269,7 @@ impl<'d> State<'d> {
             in_cycle: course != Course::Machine && (self.cycle.is_some() || self.pass.is_some()),
             known,
             to_machine: [false; 5],
-            modes: Modes { plane, other_plane, compensation_plane, ..self.modes },
+            modes,
         }));
     }
 
@@ -281,7 +282,7 @@ impl<'d> State<'d> {
             found.to_machine = named;
         }
         if named[2] && self.dialect.has(Habit::PositionsEndLengths) {
-            self.modes.length_offset = None;
+            self.modes.length.offset = None;
         }
     }
 

@@ -72,17 +72,17 @@ impl State<'_> {
         if self.tilt.is_some() {
             return refuse("a tilted frame within another one; the first must be ended");
         }
-        if self.modes.tip_control {
+        if self.modes.frame.tip_control {
             return refuse("a tilted frame begins under tool-tip control");
         }
-        if self.modes.compensation != Compensation::Off {
+        if self.modes.compensation.side != Compensation::Off {
             return refuse("a tilted frame begins under cutter compensation");
         }
         if self.cycle.is_some() {
             return refuse("a tilted frame begins while a cycle is in force");
         }
         self.counts_in(Some(tilt));
-        self.modes.tilted = true;
+        self.modes.frame.tilted = true;
         Ok(())
     }
 
@@ -136,7 +136,7 @@ impl State<'_> {
         if self.tilt.is_some() {
             self.counts_in(None);
         }
-        self.modes.tilted = false;
+        self.modes.frame.tilted = false;
     }
 
     /// From now on X, Y and Z count in this frame; the tool stands, and no word has said where.

@@ -17,7 +17,7 @@ use crate::motion::Compensation;
 impl State<'_> {
     /// Refuses what has no sure meaning where tool-tip control is on, begins or ends.
     pub(super) fn check_tip_control(&self, words: &Words) -> Result<(), Fault> {
-        let on = self.modes.tip_control;
+        let on = self.modes.frame.tip_control;
         match words.peek(Group::Length) {
             Some(Function::TipControl | Function::TipControlByDirection) if on => {
                 refuse(words, "tool-tip control is on already")
@@ -34,7 +34,7 @@ impl State<'_> {
 
     fn check_begin(&self, words: &Words) -> Result<(), Fault> {
         let gives_up = |function: Function| words.peek(function.group()) == Some(function);
-        let compensates = self.modes.compensation != Compensation::Off;
+        let compensates = self.modes.compensation.side != Compensation::Off;
         if compensates && !gives_up(Function::Compensation(Compensation::Off)) {
             return refuse(words, "tool-tip control begins under cutter compensation");
         }
@@ -133,7 +133,7 @@ impl State<'_> {
     /// length that the tool has already.
     pub(super) fn begin_stated_tip_control(&mut self) -> Result<(), Fault> {
         let refuse = |why: &str| Err(Fault::new(NcCode::NoMeaning, why));
-        if self.modes.compensation != Compensation::Off {
+        if self.modes.compensation.side != Compensation::Off {
             return refuse("tool-tip control begins under cutter compensation");
         }
         if self.tilt.is_some() {
@@ -148,14 +148,14 @@ impl State<'_> {
                 );
             }
         }
-        self.modes.tip_control = true;
+        self.modes.frame.tip_control = true;
         self.lose_tip();
         Ok(())
     }
 
     /// Refuses what controls take in different ways while tool-tip control is on.
     pub(super) fn refuse_under_tip_control(&self, what: &str) -> Result<(), Fault> {
-        if self.modes.tip_control { Err(differ(what)) } else { Ok(()) }
+        if self.modes.frame.tip_control { Err(differ(what)) } else { Ok(()) }
     }
 
     /// Takes up tool-tip control with its length offset, by the direction of the tool or by the
@@ -167,9 +167,9 @@ impl State<'_> {
     ) -> Result<(), Fault> {
         let offset = words.take_whole(H)?;
         let missing = || Fault::new(NcCode::MissingWord, "tool-tip control needs its H");
-        self.modes.length_offset = Some(offset.ok_or_else(missing)?);
-        self.modes.tip_control = true;
-        self.modes.tip_control_line = self.line;
+        self.modes.length.offset = Some(offset.ok_or_else(missing)?);
+        self.modes.frame.tip_control = true;
+        self.modes.frame.tip_control_line = self.line;
         self.by_direction = by_direction;
         self.lose_tip();
         Ok(())
@@ -178,7 +178,7 @@ impl State<'_> {
     /// Gives tool-tip control up.
     pub(super) fn end_tip_control(&mut self) {
         self.by_direction = false;
-        if std::mem::take(&mut self.modes.tip_control) {
+        if std::mem::take(&mut self.modes.frame.tip_control) {
             self.was_tip = true;
             self.lose_tip();
         }

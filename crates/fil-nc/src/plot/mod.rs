@@ -120,7 +120,7 @@ pub struct InForce {
     pub speed_limit: Option<f64>,
     /// What the spindle does.
     pub spindle: Spindle,
-    /// The work offset, as [`Modes::fixture`](crate::motion::Modes::fixture).
+    /// The work offset, as [`FrameModes::fixture`](crate::motion::FrameModes::fixture).
     pub fixture: Option<u32>,
 }
 

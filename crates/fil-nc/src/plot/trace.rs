@@ -6,7 +6,7 @@ use nalgebra::{Point3, Rotation3, Unit};
 
 use super::sample::{arc_step, shares_of};
 use super::{Change, Extent, InForce, Piece, Point, Stroke, Trace};
-use crate::motion::{Modes, Move, Rate};
+use crate::motion::{Modes, Move, Rate, SpindleModes};
 use crate::verify::{Arc, ClPath, Hole, Wanted};
 
 /// Chords of arcs leave them by this part of the size of the picture.
@@ -79,7 +79,9 @@ impl Builder {
             }
             (rate, _) => rate,
         };
-        let Modes { tool, speed, speed_limit, spindle, fixture, .. } = motion.modes;
+        let Modes { tool, spindle, frame, .. } = motion.modes;
+        let SpindleModes { turn: spindle, speed, speed_limit, .. } = spindle;
+        let fixture = frame.fixture;
         let now = InForce { from, tool, feed, speed, speed_limit, spindle, fixture };
         if last.is_none_or(|last| InForce { from, ..*last } != now) {
             self.trace.in_force.push(now);

@@ -50,12 +50,12 @@ impl Again {
         wrong: &mut Vec<(FindingKind, String)>,
     ) {
         let behind = "is not switched on again behind the tool change or stop";
-        let turns = modes.spindle != Spindle::Off && expected.spindle.next.is_none();
-        if self.spindle && modes.spindle_unsaid && turns {
+        let turns = modes.spindle.turn != Spindle::Off && expected.spindle.next.is_none();
+        if self.spindle && modes.unsaid.spindle && turns {
             wrong.push((FindingKind::Spindle, format!("the spindle {behind}")));
         }
         let flows = modes.coolant.is_some() && expected.coolant.next.is_none();
-        if self.coolant && modes.coolant_unsaid && flows {
+        if self.coolant && modes.unsaid.coolant && flows {
             wrong.push((FindingKind::Coolant, format!("the coolant {behind}")));
         }
     }

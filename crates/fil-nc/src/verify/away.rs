@@ -33,7 +33,7 @@ impl<C: Steps> Walk<'_, C> {
     /// The tool has come away from the part, or goes to it, by this motion.
     pub(super) fn leaves_or_comes(&mut self, found: &Move) {
         if found.to_machine[2] && self.settings.dialect.has(Habit::PositionsEndLengths) {
-            self.modes.length_is_taken_off();
+            self.expected.length_is_taken_off();
         }
         self.is_away = match found.course {
             Course::Machine => true,

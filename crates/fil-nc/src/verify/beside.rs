@@ -35,9 +35,9 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The turns a minute at surface speed where the tool of a lathe stands.
     pub(super) fn turns_at_surface_speed(&self) -> Option<f64> {
-        let is_known = self.known[0] && !self.modes.mills();
+        let is_known = self.known[0] && !self.expected.mills();
         let diameter = 2.0 * self.at.linear[0].abs();
-        is_known.then(|| self.modes.turns_of_surface(diameter, self.settings)).flatten()
+        is_known.then(|| self.expected.turns_of_surface(diameter, self.settings)).flatten()
     }
 
     pub(super) fn check_dwell(
@@ -162,10 +162,10 @@ impl<C: Steps> Walk<'_, C> {
             self.extra(1, cl_line);
             self.pass(cl_line);
         }
-        if self.modes.ends_milling(self.settings) {
+        if self.expected.ends_milling(self.settings) {
             self.ask_auxiliary(cl_line, self.settings.spindle_mode_code(false));
         }
-        self.modes.ends_counting_side(self.settings);
+        self.expected.ends_counting_side(self.settings);
         self.take_blocks(&self.settings.end_blocks());
         match self.nc.get(self.next) {
             Some(Event::End { line, code, modes }) => {

@@ -57,7 +57,7 @@ impl Expected {
             MeantPlane::OfTurning | MeantPlane::OfMillTurn if !self.mills() => Some(ZX),
             MeantPlane::OfTurning | MeantPlane::OfMillTurn => self.plane_of_live_tool(),
         }?;
-        let found = modes.compensation_plane.filter(|found| *found != must)?;
+        let found = modes.compensation.plane.filter(|found| *found != must)?;
         let [found, must] = [found, must].map(|normal| PLANES[normal]);
         Some(format!("cutter compensation acts in the plane {found}, it should be {must}"))
     }
@@ -67,7 +67,7 @@ impl<C: Steps> Walk<'_, C> {
     /// The cutter is compensated in a plane that its axis is square to, as the control sees it; under
     /// a tool along Z also in the one that the record names, where the part stands as the machine.
     pub(super) fn check_square_to_compensation(&mut self, cl_line: u32, found: &Move) {
-        let Some(normal) = found.modes.compensation_plane else { return };
+        let Some(normal) = found.modes.compensation.plane else { return };
         let forward = &self.settings.forward;
         let is_known = (0..2).all(|n| forward.rotaries()[n].is_none() || found.known[n + 3]);
         if !forward.has_rotary() || self.settings.is_mill_turn() || !is_known {
@@ -85,7 +85,7 @@ impl<C: Steps> Walk<'_, C> {
                 (self.tool_on_axes(found.to.rotary), turn * unit)
             }
         };
-        let is_named = normal != DRILLED && self.modes.named_plane() == normal;
+        let is_named = normal != DRILLED && self.expected.named_plane() == normal;
         let cuts = tool.dot(&unit) > SAME_WAY || is_named && tool.z > SAME_WAY;
         if cuts && (!is_named || seen.dot(&unit) > SAME_WAY) {
             return;

@@ -49,12 +49,12 @@ impl Counted {
     pub(super) fn wrong(&self, modes: &Modes) -> Option<String> {
         let must = self.side?;
         let name = |side: bool| if side { "the second spindle" } else { "the main spindle" };
-        if modes.counts_side != Some(must) {
-            let found = modes.counts_side.map_or("no spindle that was chosen", name);
+        if modes.master.is_side != Some(must) {
+            let found = modes.master.is_side.map_or("no spindle that was chosen", name);
             return Some(format!("the control counts {found}, it should count {}", name(must)));
         }
-        let turns = self.other.spindle.filter(|turns| *turns != modes.other_spindle)?;
-        let [found, turns] = [modes.other_spindle, turns].map(name_of_turn);
+        let turns = self.other.spindle.filter(|turns| *turns != modes.master.other)?;
+        let [found, turns] = [modes.master.other, turns].map(name_of_turn);
         Some(format!("{} is {found}, it should be {turns}", name(!must)))
     }
 }

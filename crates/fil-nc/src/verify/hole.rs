@@ -105,10 +105,10 @@ impl<C: Steps> Walk<'_, C> {
         plunge: &Move,
     ) -> Option<f64> {
         let first = self.next;
-        if hole.rigid && self.settings.is_mill_turn() && self.modes.mills() {
+        if hole.rigid && self.settings.is_mill_turn() && self.expected.mills() {
             self.ask_rigid(cl_line, plunge.line);
         }
-        match self.drill(cl_line, hole, levels, plunge.modes.spindle) {
+        match self.drill(cl_line, hole, levels, plunge.modes.spindle.turn) {
             Ok(rest) => Some(rest),
             Err((line, message)) => {
                 self.find(FindingKind::Cycle, Some(cl_line), Some(line), message);
@@ -391,7 +391,7 @@ impl<C: Steps> Walk<'_, C> {
         if off.abs() > self.slack.linear[2] {
             return Err((found.line, self.spell_level(what, found.to.linear[2], z)));
         }
-        found.modes.spindle = turning.unwrap_or(found.modes.spindle);
+        found.modes.spindle.turn = turning.unwrap_or(found.modes.spindle.turn);
         self.take(cl_line, &found);
         self.next += 1;
         Ok(found)

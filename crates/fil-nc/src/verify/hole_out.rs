@@ -53,7 +53,7 @@ impl<C: Steps> Walk<'_, C> {
         };
         // What a code of a machine's own does with the spindle is not known.
         let is_open = out == Out::Any && kind == CycleKind::Bore;
-        if first.modes.spindle != spindle && !is_open {
+        if first.modes.spindle.turn != spindle && !is_open {
             let message = "the spindle is not as it should be on the way out".to_string();
             return Err((first.line, message));
         }

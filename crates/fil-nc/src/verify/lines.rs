@@ -55,7 +55,7 @@ impl<C: Steps> Walk<'_, C> {
         self.rapid_to = None;
         self.measure(&end, pose);
         self.next = last + 1;
-        if self.modes.mills_without_y(self.settings) {
+        if self.expected.mills_without_y(self.settings) {
             self.pass_begin_of_polar(cl_line, pose);
         }
         self.rapid_end = Some(*pose);
@@ -378,7 +378,7 @@ impl<C: Steps> Walk<'_, C> {
                 [x, if self.written[1] { y } else { 0.0 }, z]
             }
             // In the plane of X and C the slide stands at the distance from the axis.
-            None if self.modes.mills_without_y(self.settings) => {
+            None if self.expected.mills_without_y(self.settings) => {
                 [libm::hypot(axes[0], axes[1]), 0.0, axes[2]]
             }
             None => axes,

@@ -113,7 +113,7 @@ impl<C: Steps> Walk<'_, C> {
     /// has C: at the point that was reached in the plane.
     fn out_of_polar(&self, found: &Move) -> Option<Position> {
         let [x, y, z] = self.at.linear;
-        if !self.modes.mills_without_y(self.settings) || y == 0.0 {
+        if !self.expected.mills_without_y(self.settings) || y == 0.0 {
             return None;
         }
         let rotary = [found.to.rotary[0], self.at.rotary[1]];
@@ -125,7 +125,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The length of an edge in force shifts where the spindle goes in the frame of the machine.
     fn check_edge_is_off(&mut self, cl_line: u32, found: &Move) {
-        let edge = found.modes.length_offset.filter(|_| self.settings.has_edges());
+        let edge = found.modes.length.offset.filter(|_| self.settings.has_edges());
         if let Some(edge) = edge {
             let message = format!(
                 "D{edge} is in force on the way to a position of the machine, which its length shifts"
@@ -180,7 +180,7 @@ impl<C: Steps> Walk<'_, C> {
             let near = |a: f64, b: f64, n: usize| (a - b).abs() <= self.slack.linear[n];
             let arrives = |n: usize| match to[n] {
                 // In polar interpolation it is the way of C.
-                None if n == 1 && self.modes.mills_without_y(self.settings) => true,
+                None if n == 1 && self.expected.mills_without_y(self.settings) => true,
                 Some(value) => known[n] && near(at.linear[n], value, n),
                 None if leans => {
                     let slack = of_tip.unwrap_or(self.slack.linear[n]);
@@ -298,8 +298,8 @@ impl<C: Steps> Walk<'_, C> {
     /// and the length comes back where it begins again.
     fn take_without_length(&mut self, cl_line: u32, found: &Move) {
         let mut seen = *found;
-        if found.modes.length_offset.is_none() {
-            seen.modes.length_offset = self.modes.offset.now;
+        if found.modes.length.offset.is_none() {
+            seen.modes.length.offset = self.expected.offset.now;
         }
         self.take(cl_line, &seen);
     }

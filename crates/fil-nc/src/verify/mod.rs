@@ -110,7 +110,7 @@ pub struct Allowed {
     /// Of the tip between the ends of motions that turn the machine, mm; `None` for
     /// what LINTOL of the CL file says, or anything.
     pub between: Option<f64>,
-    /// Work offsets (see [`Modes::fixture`](crate::motion::Modes::fixture)) that the program
+    /// Work offsets (see [`FrameModes::fixture`](crate::motion::FrameModes::fixture)) that the program
     /// may choose where the CL file names none.
     pub offsets: Vec<u32>,
 }
@@ -135,7 +135,7 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let mut walk = walk::Walk::new(path, check.events, own, &settings, watch);
     walk.begin_with_blocks(check.skips_blocks);
     let of_machine = check.commons.allowed_offsets().iter().filter_map(|name| work_offset(name));
-    walk.modes.allow_offsets(check.allowed.offsets.into_iter().chain(of_machine).collect());
+    walk.expected.allow_offsets(check.allowed.offsets.into_iter().chain(of_machine).collect());
     let report = walk.all()?;
     refuse_another_part(&report)?;
     Ok(report)

@@ -111,7 +111,7 @@ impl<C: Steps> Walk<'_, C> {
             let line = self.settings.dialect.text.marks.read(block.as_bytes());
             let is_skipped = line.trim_ascii_start().first() == Some(&SKIP);
             if !(is_skipped && self.switches.leaves_out) {
-                self.modes.take_block(&line, self.settings);
+                self.expected.take_block(&line, self.settings);
             }
         }
     }

@@ -85,14 +85,14 @@ impl<C: Steps> Walk<'_, C> {
     /// A motion in a work offset that no record before has asked for: it belongs to a step
     /// behind the record that does.
     fn is_of_a_later_offset(&self, found: &Move) -> bool {
-        found.modes.fixture != self.moved_fixture
-            && self.modes.fixture.is_some_and(|asked| asked != found.modes.fixture)
+        found.modes.frame.fixture != self.moved_fixture
+            && self.expected.fixture.is_some_and(|asked| asked != found.modes.frame.fixture)
     }
 
     /// A record has asked for a work offset in which nothing has moved: where the axes stand in
     /// it nobody knows.
     pub(super) fn awaits_offset(&self) -> bool {
-        self.modes.fixture.flatten().is_some_and(|asked| self.moved_fixture != Some(asked))
+        self.expected.fixture.flatten().is_some_and(|asked| self.moved_fixture != Some(asked))
     }
 
     /// The CL file stays where the tool is, and the program goes to a point of the machine, for
@@ -120,7 +120,7 @@ impl<C: Steps> Walk<'_, C> {
                     self.stand(&found);
                 }
                 Event::ToolChange { tool, .. } => {
-                    self.modes.insert_tool(tool);
+                    self.expected.insert_tool(tool);
                     self.next += 1;
                 }
                 Event::Dwell { .. } => self.next += 1,
@@ -136,8 +136,8 @@ impl<C: Steps> Walk<'_, C> {
         self.height_is_fresh &= stays || !found.known[2];
         self.at = found.to;
         self.known = found.known;
-        (self.moved_tool, self.moved_fixture) = (found.modes.tool, found.modes.fixture);
-        self.moved_tip_line = found.modes.tip_control_line;
+        (self.moved_tool, self.moved_fixture) = (found.modes.tool, found.modes.frame.fixture);
+        self.moved_tip_line = found.modes.frame.tip_control_line;
         self.rapid_end = None;
         self.next += 1;
     }

@@ -356,34 +356,39 @@ impl Pair<'_> {
                 format!("tool {} moves, it should be tool {}", b.tool, a.tool),
             ),
             (
-                a.length_offset != b.length_offset,
+                a.length.offset != b.length.offset,
                 FindingKind::Tool,
                 "another length offset is on".to_string(),
             ),
             (
-                a.tip_control != b.tip_control,
+                a.frame.tip_control != b.frame.tip_control,
                 FindingKind::Tool,
                 "tool-tip control is not as it should be".to_string(),
             ),
             (
-                a.tilted != b.tilted,
+                a.frame.tilted != b.frame.tilted,
                 FindingKind::Tool,
                 "the tilted frame is not as it should be".to_string(),
             ),
             (
-                (a.compensation, a.compensation_offset) != (b.compensation, b.compensation_offset),
+                (a.compensation.side, a.compensation.offset)
+                    != (b.compensation.side, b.compensation.offset),
                 FindingKind::Compensation,
                 "cutter compensation is not as it should be".to_string(),
             ),
             (
-                a.spindle != b.spindle,
+                a.spindle.turn != b.spindle.turn,
                 FindingKind::Spindle,
-                format!("the spindle is {:?}, it should be {:?}", b.spindle, a.spindle)
+                format!("the spindle is {:?}, it should be {:?}", b.spindle.turn, a.spindle.turn)
                     .to_lowercase(),
             ),
-            (a.speed != b.speed, FindingKind::Speed, "the spindle has another speed".to_string()),
             (
-                a.speed_limit != b.speed_limit,
+                a.spindle.speed != b.spindle.speed,
+                FindingKind::Speed,
+                "the spindle has another speed".to_string(),
+            ),
+            (
+                a.spindle.speed_limit != b.spindle.speed_limit,
                 FindingKind::Speed,
                 "the spindle speed has another limit".to_string(),
             ),
@@ -393,28 +398,30 @@ impl Pair<'_> {
                 "the coolant is not as it should be".to_string(),
             ),
             (
-                b.spindle_unsaid && !a.spindle_unsaid,
+                b.unsaid.spindle && !a.unsaid.spindle,
                 FindingKind::Spindle,
                 "the spindle is not switched on again behind the tool change or stop".to_string(),
             ),
             (
-                b.coolant_unsaid && !a.coolant_unsaid,
+                b.unsaid.coolant && !a.unsaid.coolant,
                 FindingKind::Coolant,
                 "the coolant is not switched on again behind the tool change or stop".to_string(),
             ),
             (
-                a.plane.map(|(normal, _)| normal) != b.plane.map(|(normal, _)| normal),
+                a.planes.unusual.map(|(normal, _)| normal)
+                    != b.planes.unusual.map(|(normal, _)| normal),
                 FindingKind::Tool,
                 "the length of the tool acts along another axis".to_string(),
             ),
             (
-                [a.other_plane, a.length_plane].map(|other| other.map(|other| other.normal))
-                    != [b.other_plane, b.length_plane].map(|other| other.map(|other| other.normal)),
+                [a.planes.other, a.length.plane].map(|other| other.map(|other| other.normal))
+                    != [b.planes.other, b.length.plane]
+                        .map(|other| other.map(|other| other.normal)),
                 FindingKind::Tool,
                 "the lengths of the tool act along other axes".to_string(),
             ),
             (
-                a.moved_zero.is_some() != b.moved_zero.is_some(),
+                a.frame.moved_zero.is_some() != b.frame.moved_zero.is_some(),
                 FindingKind::Fixture,
                 "the zero is moved, or not, by a statement".to_string(),
             ),
@@ -423,7 +430,11 @@ impl Pair<'_> {
                 FindingKind::Extra,
                 "how the path is followed is said, or not, by a statement".to_string(),
             ),
-            (a.fixture != b.fixture, FindingKind::Fixture, "another work offset is on".to_string()),
+            (
+                a.frame.fixture != b.frame.fixture,
+                FindingKind::Fixture,
+                "another work offset is on".to_string(),
+            ),
         ];
         for (differs, kind, message) in checks {
             let said = self.report.findings.iter().any(|f| f.kind == kind && f.message == message);

@@ -32,7 +32,7 @@ impl<C: Steps> Walk<'_, C> {
         if !is_lathe || !known {
             return;
         }
-        let wrong = match self.settings.is_mill_turn() && self.modes.mills() {
+        let wrong = match self.settings.is_mill_turn() && self.expected.mills() {
             true => self.wrong_order_of_live_tool(&part.to, &end.0.to, end.1),
             false => self.wrong_order_of_turning(&part.to, &end.0.to),
         };

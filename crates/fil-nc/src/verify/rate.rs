@@ -58,13 +58,13 @@ impl<C: Steps> Walk<'_, C> {
                 if self.settings.feeds_holes_a_minute() || found.in_cycle =>
             {
                 let agrees = |speed: f64| (a * speed - b).abs() <= self.slack.of(Quantity::Feed);
-                found.modes.speed.and_then(Speed::turns).is_some_and(agrees)
+                found.modes.spindle.speed.and_then(Speed::turns).is_some_and(agrees)
             }
             (Rate::PerMinute(rate), Some(Rate::Inverse(inverse))) => {
                 return self.check_time(cl_line, (from, found), rate, inverse);
             }
             (Rate::PerTurn(rate), Some(Rate::Inverse(inverse))) => {
-                let Some(speed) = found.modes.speed.and_then(Speed::turns) else { return };
+                let Some(speed) = found.modes.spindle.speed.and_then(Speed::turns) else { return };
                 return self.check_time(cl_line, (from, found), rate * speed, inverse);
             }
             _ => false,
@@ -92,7 +92,7 @@ impl<C: Steps> Walk<'_, C> {
     fn within_axes(&self, rate: f64, from: &Position, found: &Move) -> f64 {
         let begins = (0..3).all(|n| self.known[n] || !self.written[n])
             && !self.tool_is_fresh
-            && found.modes.fixture == self.moved_fixture;
+            && found.modes.frame.fixture == self.moved_fixture;
         let turns = turned(from, found) != [0.0; 2] && !found.to.tip_control;
         if turns && begins {
             return rate;
@@ -107,7 +107,7 @@ impl<C: Steps> Walk<'_, C> {
     fn on_tape(&self, from: &Position, found: &Move) -> (Position, Move) {
         let Some(to_axes) = self.from_hole.map(|hole| hole.turn) else { return (*from, *found) };
         // Under tool-tip control X, Y and Z are those of the part.
-        let turn = match found.modes.tip_control {
+        let turn = match found.modes.frame.tip_control {
             true => self.settings.forward.frame(found.to.rotary).turn * to_axes,
             false => to_axes,
         };
@@ -175,7 +175,7 @@ impl<C: Steps> Walk<'_, C> {
         let Some(arc) = found.arc.filter(|_| self.settings.feeds_at_the_edge()) else {
             return rate;
         };
-        let inside = match found.modes.compensation {
+        let inside = match found.modes.compensation.side {
             Compensation::Off => return rate,
             Compensation::Left => arc.ccw,
             Compensation::Right => !arc.ccw,
@@ -294,7 +294,7 @@ impl<C: Steps> Walk<'_, C> {
         if turned == [0.0; 2] || from.names_tip() || found.to.names_tip() {
             return false;
         }
-        let rate = match (wanted, found.modes.speed.and_then(Speed::turns)) {
+        let rate = match (wanted, found.modes.spindle.speed.and_then(Speed::turns)) {
             (Rate::PerMinute(rate), _) => rate,
             (Rate::PerTurn(rate), Some(speed)) => rate * speed,
             _ => return false,

@@ -340,8 +340,8 @@ impl<C: Steps> Walk<'_, C> {
         (before, line): (&Modes, u32),
         how: &Reposition,
     ) {
-        let spindle = if how.stands { Spindle::Off } else { before.spindle };
-        if found.spindle != spindle && !(how.by_macro && found.spindle == Spindle::Off) {
+        let spindle = if how.stands { Spindle::Off } else { before.spindle.turn };
+        if found.spindle.turn != spindle && !(how.by_macro && found.spindle.turn == Spindle::Off) {
             let does = if how.stands { "stand" } else { "go on as before" };
             let message = format!("the spindle should {does} while the machine turns");
             self.find(FindingKind::Spindle, Some(cl_line), Some(line), message);

@@ -137,7 +137,7 @@ impl RotaryRules {
     fn begins_anywhere(&self, found: &Move) -> bool {
         let found_out = (0..5).any(|n| found.known[n] && !self.known[n]);
         let stands_at_zero = self.at.rotary == [0.0; 2];
-        let other_frame = found.modes.fixture != self.fixture
+        let other_frame = found.modes.frame.fixture != self.fixture
             || found.to.tilt != self.at.tilt
             || found.to.tip_control != self.at.tip_control && !stands_at_zero;
         self.is_fresh || found_out || other_frame
@@ -151,7 +151,7 @@ impl RotaryRules {
             let differs = (found.to.rotary[n] - self.at.rotary[n]).abs() > TURNED;
             differs || self.sent_away[n] && found.known[n + 3] || found.to_machine[n + 3]
         };
-        found.modes.compensation != Compensation::Off && !follows && (0..2).any(turns)
+        found.modes.compensation.side != Compensation::Off && !follows && (0..2).any(turns)
     }
 
     fn go(&mut self, found: &Move) {
@@ -161,7 +161,7 @@ impl RotaryRules {
         }
         self.at = found.to;
         self.known = found.known;
-        self.fixture = found.modes.fixture;
+        self.fixture = found.modes.frame.fixture;
         self.is_fresh = false;
     }
 }
@@ -195,7 +195,7 @@ mod tests {
     #[test]
     fn a_turn_under_compensation_is_said_once_and_none_in_a_frame_or_under_tip_control() {
         let mut turned = at_feed(10.0);
-        turned.modes.compensation = Compensation::Left;
+        turned.modes.compensation.side = Compensation::Left;
         let further = Move { to: at_feed(20.0).to, ..turned };
         assert_eq!(kinds(&[at_feed(0.0), turned, further]), [FindingKind::Compensation]);
         assert_eq!(kinds(&[at_feed(10.0), turned]), []);
@@ -226,7 +226,7 @@ mod tests {
         assert_eq!(said.len(), 1);
         assert!(rules.look(&Event::Move(at_feed(1.0))).is_empty());
         let mut offset = at_feed(2.0);
-        offset.modes.fixture = Some(55);
+        offset.modes.frame.fixture = Some(55);
         assert_eq!(rules.look(&Event::Move(offset)).len(), 1);
         assert!(rules.look(&Event::Move(offset)).is_empty());
     }

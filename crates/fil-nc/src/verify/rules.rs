@@ -69,18 +69,18 @@ impl Rules {
     }
 
     fn stray_offset(&mut self, line: u32, modes: &Modes) {
-        if let Some(offset) = modes.stray_offset.filter(|_| self.stray != modes.stray_offset) {
+        if let Some(offset) = modes.length.stray.filter(|_| self.stray != modes.length.stray) {
             let said = "stands after a tool change without the function of the length offset";
             self.find(FindingKind::Tool, line, format!("H{offset} {said}"));
         }
-        self.stray = modes.stray_offset;
+        self.stray = modes.length.stray;
     }
 
     fn motion(&mut self, found: &Move) {
         self.stray_offset(found.line, &found.modes);
         self.plane(found);
         self.length(found);
-        let now = found.modes.compensation;
+        let now = found.modes.compensation.side;
         let before = std::mem::replace(&mut self.compensation, now);
         let is_on = now != Compensation::Off;
         if now != before && found.arc.is_some() {
@@ -98,10 +98,10 @@ impl Rules {
 
     /// A tool cuts with its own length, and not with that of the tool before.
     fn length(&mut self, found: &Move) {
-        let cuts = found.course == Course::Feed && found.modes.length_unsaid;
+        let cuts = found.course == Course::Feed && found.modes.length.uncalled;
         if cuts && !std::mem::replace(&mut self.said_of_length, cuts) {
             let tool = found.modes.tool;
-            let message = match found.modes.length_offset {
+            let message = match found.modes.length.offset {
                 Some(offset) => format!(
                     "tool {tool} cuts with length offset {offset}, which was called before the tool \
                      was changed"
@@ -116,7 +116,7 @@ impl Rules {
     /// The lengths of a tool act in one plane alone on a SINUMERIK, and on other mills some controls
     /// count them square to that in which they were taken up.
     fn plane(&mut self, found: &Move) {
-        let now = [found.modes.other_plane, found.modes.length_plane];
+        let now = [found.modes.planes.other, found.modes.length.plane];
         let before = std::mem::replace(&mut self.other_planes, now);
         let [motion, length] = [0, 1].map(|n| now[n].filter(|_| now[n] != before[n]));
         if let Some(other) = motion {
@@ -130,7 +130,7 @@ impl Rules {
 
     /// What must be off where the axes stand.
     fn standing(&mut self, line: u32, modes: &Modes, place: &str) {
-        if modes.compensation != Compensation::Off {
+        if modes.compensation.side != Compensation::Off {
             let message = format!("cutter compensation is on {place}");
             self.find(FindingKind::Compensation, line, message);
         }

@@ -249,9 +249,9 @@ impl<C: Steps> Walk<'_, C> {
         };
         // With an infeed of a pitch a pass of one start begins where another start does.
         let last = self.next.checked_sub(1).and_then(|last| self.nc.motion(last));
-        let speed = last.map(|found| found.modes.speed);
+        let speed = last.map(|found| found.modes.spindle.speed);
         let goes_on = |walk: &Self| {
-            let next = walk.next_move().filter(|to| Some(to.modes.speed) == speed);
+            let next = walk.next_move().filter(|to| Some(to.modes.spindle.speed) == speed);
             next.is_some_and(|to| to.course == Course::Rapid && gauge.is_at_a_start(&to.to))
         };
         for _ in 0..BETWEEN_PASSES {

@@ -13,7 +13,7 @@ pub(super) type Turns = (Option<Speed>, Spindle, Option<bool>);
 impl<C: Steps> Walk<'_, C> {
     /// The next pass must turn the spindle as the first one of its thread did.
     pub(super) fn check_turns_of_pass(&mut self, cl_line: u32, pass: &Move) {
-        let now = (pass.modes.speed, pass.modes.spindle, pass.modes.counts_side);
+        let now = (pass.modes.spindle.speed, pass.modes.spindle.turn, pass.modes.master.is_side);
         let first = *self.thread_turns.get_or_insert(now);
         if first != now {
             self.thread_turns = Some(now);

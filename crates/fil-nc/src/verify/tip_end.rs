@@ -9,7 +9,7 @@ use super::say::short;
 use super::settings::Settings;
 use super::walk::{STILL, Walk};
 use super::wanted::{Step, Wanted};
-use crate::motion::{Course, Event, Modes, Move, Position};
+use crate::motion::{Course, Event, FrameModes, Modes, Move, Position};
 
 impl Settings<'_> {
     /// How far the tool must go up before tool-tip control ends, mm; `None` for a control
@@ -60,7 +60,7 @@ impl<C: Steps> Walk<'_, C> {
             self.is_away || (!ends_frame && !self.is_in_cut && self.is_retract_level(level));
         let straight_up = found.course == Course::Rapid
             && !(to.tip_control || self.at.tip_control || found.in_cycle)
-            && found.modes.length_offset.is_some()
+            && found.modes.length.offset.is_some()
             && is_known
             && (is_away || self.lies_along_z(to))
             && to.rotary == from.rotary
@@ -79,7 +79,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         let rise = part.to.linear[2] - self.at.linear[2];
         let is_enough = rise >= way_up - 2.0 * self.slack.linear[2] - STILL;
-        if self.is_upright(part.to.rotary) || is_enough || part.modes.length_offset.is_none() {
+        if self.is_upright(part.to.rotary) || is_enough || part.modes.length.offset.is_none() {
             return;
         }
         let message = format!(
@@ -97,7 +97,7 @@ impl<C: Steps> Walk<'_, C> {
             && !self.is_above
             && !self.tool_is_fresh
             && self.known[2]
-            && self.modes.offset_on().is_some();
+            && self.expected.offset_on().is_some();
         if !may_come_down || self.settings.way_up_at_tip_end().is_none() {
             return;
         }
@@ -116,7 +116,7 @@ impl<C: Steps> Walk<'_, C> {
     /// The next motion that moves X, Y or Z is under tool-tip control.
     fn begins_tip_control(&self, index: usize, from: &Position) -> bool {
         let next = self.nc.from(index).find_map(|event| match event {
-            Event::Move(next) if next.modes.tip_control => Some(true),
+            Event::Move(next) if next.modes.frame.tip_control => Some(true),
             Event::Move(next) => (next.to.linear != from.linear).then_some(false),
             Event::ToolChange { .. } | Event::End { .. } => Some(false),
             _ => None,
@@ -127,11 +127,11 @@ impl<C: Steps> Walk<'_, C> {
     /// Takes the way up, on which a work offset may wait for the next motion of the CL file.
     pub(super) fn goes_up(&mut self, cl_line: u32, found: &Move) {
         let mut seen = *found;
-        if found.modes.fixture == self.moved_fixture {
-            seen.modes.fixture = self.modes.fixture.unwrap_or(found.modes.fixture);
+        if found.modes.frame.fixture == self.moved_fixture {
+            seen.modes.frame.fixture = self.expected.fixture.unwrap_or(found.modes.frame.fixture);
         }
         self.take(cl_line, &seen);
-        self.moved_fixture = found.modes.fixture;
+        self.moved_fixture = found.modes.frame.fixture;
         self.next += 1;
         self.is_up = true;
     }
@@ -176,22 +176,25 @@ impl<C: Steps> Walk<'_, C> {
     fn ends_tip_control(&self, index: usize, modes: &Modes) -> Option<bool> {
         self.nc.from(index).find_map(|event| match event {
             Event::Move(next) => Some(
-                !next.modes.tip_control
-                    || next.modes.fixture != modes.fixture
-                    || next.modes.tip_control_line != modes.tip_control_line,
+                !next.modes.frame.tip_control
+                    || next.modes.frame.fixture != modes.frame.fixture
+                    || next.modes.frame.tip_control_line != modes.frame.tip_control_line,
             ),
-            Event::ToolChange { modes, .. } | Event::End { modes, .. } => Some(!modes.tip_control),
+            Event::ToolChange { modes, .. } | Event::End { modes, .. } => {
+                Some(!modes.frame.tip_control)
+            }
             _ => None,
         })
     }
 
     /// What of the modes of the last motion says whether tool-tip control goes on.
     fn moved_modes(&self) -> Modes {
-        Modes {
+        let frame = FrameModes {
             fixture: self.moved_fixture,
             tip_control_line: self.moved_tip_line,
-            ..Modes::default()
-        }
+            ..FrameModes::default()
+        };
+        Modes { frame, ..Modes::default() }
     }
 
     /// Where tool-tip control has ended with the machine turned, a control may have moved for it.

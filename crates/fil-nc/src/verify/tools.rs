@@ -17,12 +17,12 @@ impl<C: Steps> Walk<'_, C> {
                 self.pass(cl_line);
             }
         }
-        let same = self.modes.tool() == Some(number)
-            && self.modes.loaded_offset() == Some(offset)
+        let same = self.expected.tool() == Some(number)
+            && self.expected.loaded_offset() == Some(offset)
             && self.settings.tool_is_modal();
         let changes = !same && self.settings.calls_tools();
         if !changes {
-            return self.modes.change_tool(number, offset, self.settings);
+            return self.expected.change_tool(number, offset, self.settings);
         }
         self.await_blocks_before_change();
         self.changes += 1;
@@ -33,7 +33,7 @@ impl<C: Steps> Walk<'_, C> {
             None => {
                 let message = format!("no change to tool {number}");
                 self.find(FindingKind::Tool, Some(cl_line), None, message);
-                return self.modes.change_tool(number, offset, self.settings);
+                return self.expected.change_tool(number, offset, self.settings);
             }
         }
         if let Some(Event::ToolChange { line, tool, modes }) = self.nc.get(self.next) {
@@ -45,22 +45,23 @@ impl<C: Steps> Walk<'_, C> {
                 self.find(FindingKind::Tool, Some(cl_line), Some(line), message);
             }
             let at_once = self.settings.calls_tools_with_offset();
-            let before = self.modes.offset_on();
+            let before = self.expected.offset_on();
             let at_change = self.settings.calls_offset_at_change();
             let early = modes
-                .length_offset
+                .length
+                .offset
                 .filter(|taken| !at_once && !at_change && before != Some(*taken));
             if let Some(taken) = early {
                 let message = format!("length offset {taken} is called before the tool changes");
                 self.find(FindingKind::Tool, Some(cl_line), Some(line), message);
             }
-            let taken = modes.length_offset.unwrap_or(0);
+            let taken = modes.length.offset.unwrap_or(0);
             if at_once && taken != offset {
                 let message = format!("length offset {taken} is taken up, it should be {offset}");
                 self.find(FindingKind::Tool, Some(cl_line), Some(line), message);
             }
         }
-        self.modes.change_tool(number, offset, self.settings);
+        self.expected.change_tool(number, offset, self.settings);
         self.go_to_offset_level(cl_line);
         self.take_blocks_after_change();
     }

@@ -14,7 +14,7 @@ impl<C: Steps> Walk<'_, C> {
     /// Asks for the code of the main spindle, as an axis or as a spindle, where MODE has
     /// changed what it is.
     pub(super) fn ask_spindle_mode(&mut self, cl_line: u32, mills: bool) {
-        if self.modes.changes_spindle(mills) {
+        if self.expected.changes_spindle(mills) {
             let code = self.settings.spindle_mode_code(mills);
             self.ask_auxiliary(cl_line, code);
         }

@@ -11,7 +11,7 @@ impl<C: Steps> Walk<'_, C> {
     /// the path is followed there or among words of the user's own; else nobody has asked for
     /// it, and a part that is made so is made wrong.
     pub(super) fn check_unasked(&mut self, cl_line: u32, nc_line: u32, modes: &Modes) {
-        let found = [modes.moved_zero, modes.path_control];
+        let found = [modes.frame.moved_zero, modes.path_control];
         if found != self.unasked {
             self.find_unasked(cl_line, nc_line, found);
         }
@@ -44,12 +44,12 @@ impl<C: Steps> Walk<'_, C> {
     /// The length of a tool acts across the plane in force: only an arc, a cycle, compensation
     /// that names its plane, or words of the user's own ask for another than that of the drill.
     pub(super) fn check_plane(&mut self, cl_line: u32, found: &Move) {
-        let Some((plane, line)) = found.modes.plane else {
+        let Some((plane, line)) = found.modes.planes.unusual else {
             self.plane = None;
             return;
         };
-        let begins = found.modes.compensation != Compensation::Off && !self.was_compensated;
-        if begins && found.arc.is_none() && self.modes.plane != plane && !self.own.has(line) {
+        let begins = found.modes.compensation.side != Compensation::Off && !self.was_compensated;
+        if begins && found.arc.is_none() && self.expected.plane != plane && !self.own.has(line) {
             return self.find_other_plane(cl_line, found, (plane, line));
         }
         if Some(plane) == self.plane {
@@ -65,7 +65,7 @@ impl<C: Steps> Walk<'_, C> {
     #[cold]
     fn check_other_plane(&mut self, cl_line: u32, found: &Move, (plane, line): (usize, u32)) {
         self.plane = Some(plane);
-        let asked = self.modes.plane == plane;
+        let asked = self.expected.plane == plane;
         if asked || self.own.has(line) {
             return;
         }

@@ -80,7 +80,7 @@ pub(super) struct Walk<'a, C> {
     pub(super) exact: [f64; 2],
     /// Line of the last motion taken.
     pub(super) line: u32,
-    pub(super) modes: Expected,
+    pub(super) expected: Expected,
     /// How the spindle turned in the passes of the thread so far.
     pub(super) thread_turns: Option<Turns>,
     /// The last motion was one of a pass.
@@ -159,7 +159,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             moved_tip_line: 0,
             exact: [0.0; 2],
             line: 0,
-            modes: Expected::new(settings),
+            expected: Expected::new(settings),
             thread_turns: None,
             is_in_groove: false,
             watch,
@@ -228,7 +228,7 @@ impl<'a, C: Steps> Walk<'a, C> {
     pub(super) fn step(&mut self, step: &Step) {
         // A text may ask which event came before.
         self.nc.forget(self.next.saturating_sub(1));
-        self.modes.take(&step.what, self.settings);
+        self.expected.take(&step.what, self.settings);
         match &step.what {
             Wanted::Metric(metric) => {
                 self.metric = *metric;
@@ -257,11 +257,12 @@ impl<'a, C: Steps> Walk<'a, C> {
             }
             Wanted::ToolLeftOut { number, offset } => {
                 let offset = self.settings.tool_offset(*number, *offset);
-                self.modes.leave_tool_out(*number, offset, self.settings);
+                self.expected.leave_tool_out(*number, offset, self.settings);
             }
             Wanted::Dwell(seconds) => self.dwell(step.line, *seconds, None),
             Wanted::DwellTurns(turns) => {
-                let speed = self.modes.turns_a_minute().or_else(|| self.turns_at_surface_speed());
+                let speed =
+                    self.expected.turns_a_minute().or_else(|| self.turns_at_surface_speed());
                 let speed = speed.filter(|_| self.settings.waits_seconds());
                 let seconds = speed.map(|speed| turns * 60.0 / speed);
                 self.dwell(step.line, seconds, Some(*turns));
@@ -292,11 +293,11 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::OverrideLock(on) => {
                 self.ask_auxiliary(step.line, self.settings.override_lock(*on))
             }
-            Wanted::RigidTap if self.settings.is_mill_turn() && self.modes.mills() => {}
+            Wanted::RigidTap if self.settings.is_mill_turn() && self.expected.mills() => {}
             Wanted::RigidTap => self.ask_auxiliary(step.line, self.settings.rigid_tap_mode()),
             Wanted::Clamp(on) => self.ask_auxiliary(step.line, self.settings.clamp_code(*on)),
             Wanted::Auxiliary(code) => self.auxiliary(step.line, *code),
-            Wanted::Unfollowed => self.modes.unfollowed = true,
+            Wanted::Unfollowed => self.expected.unfollowed = true,
             Wanted::End(end) => self.end(step.line, *end),
             _ if step.what.end().is_some() => self.motion(step),
             _ => {}
@@ -419,9 +420,9 @@ impl<'a, C: Steps> Walk<'a, C> {
             let turns = found.arc.is_some_and(|arc| arc.normal != n);
             turns || way > STILL || (found.known[n] && !self.known[n])
         };
-        let normal = match self.modes.plane_of_live_tool() {
+        let normal = match self.expected.plane_of_live_tool() {
             Some(normal) => normal,
-            None => found.modes.plane.map_or(DRILLED, |(normal, _)| normal),
+            None => found.modes.planes.unusual.map_or(DRILLED, |(normal, _)| normal),
         };
         let moved = Moved {
             xy: differs(0) || differs(1),
@@ -434,19 +435,19 @@ impl<'a, C: Steps> Walk<'a, C> {
         }
         self.height_is_fresh &= !moved.z;
         let cuts = matches!(found.course, Course::Feed | Course::Thread);
-        if ends_tip && found.modes.length_offset.is_none() {
-            self.modes.length_is_taken_off();
+        if ends_tip && found.modes.length.offset.is_none() {
+            self.expected.length_is_taken_off();
         }
         let wrong = match moved.xy || moved.z || !self.is_still(found) {
-            true => self.modes.check(&found.modes, moved, cuts, &self.slack),
-            false => self.modes.check_resting(&found.modes, &self.slack),
+            true => self.expected.check(&found.modes, moved, cuts, &self.slack),
+            false => self.expected.check_resting(&found.modes, &self.slack),
         };
         for (kind, message) in wrong {
             self.find(kind, Some(cl_line), Some(found.line), message);
         }
         self.check_unasked(cl_line, found.line, &found.modes);
         self.check_plane(cl_line, found);
-        self.was_compensated = found.modes.compensation != Compensation::Off;
+        self.was_compensated = found.modes.compensation.side != Compensation::Off;
         self.check_limits(cl_line, found);
         self.check_bend(cl_line, found);
         self.leaves_or_comes(found);
@@ -456,8 +457,8 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.line = found.line;
         self.at = found.to;
         self.moved_tool = found.modes.tool;
-        self.moved_fixture = found.modes.fixture;
-        self.moved_tip_line = found.modes.tip_control_line;
+        self.moved_fixture = found.modes.frame.fixture;
+        self.moved_tip_line = found.modes.frame.tip_control_line;
         self.moved_tip = found.to.tip_control;
         self.known = found.known;
         self.has_had_height |= found.known[2];
@@ -472,18 +473,18 @@ impl<'a, C: Steps> Walk<'a, C> {
         changes: bool,
     ) {
         self.check_unasked(cl_line, nc_line, modes);
-        for (kind, message) in self.modes.check_standing(modes, changes, &self.slack) {
+        for (kind, message) in self.expected.check_standing(modes, changes, &self.slack) {
             self.find(kind, Some(cl_line), Some(nc_line), message);
         }
     }
 
     /// After the first motion with a new tool its length offset is on.
     pub(super) fn settle(&mut self, cl_line: u32) {
-        if !self.modes.offset_waits() {
+        if !self.expected.offset_waits() {
             return;
         }
         self.pass(cl_line);
-        if let Some((kind, message)) = self.modes.settle() {
+        if let Some((kind, message)) = self.expected.settle() {
             self.find(kind, Some(cl_line), Some(self.line), message);
         }
     }

@@ -219,7 +219,8 @@ impl Klartext<'_> {
                 self.state.known[axis] = false;
             }
         }
-        self.state.modes.moved_zero = Some(self.state.line).filter(|_| self.shift != [0.0; 3]);
+        self.state.modes.frame.moved_zero =
+            Some(self.state.line).filter(|_| self.shift != [0.0; 3]);
         Ok(())
     }
 
@@ -259,16 +260,16 @@ impl Klartext<'_> {
             let line = self.state.line;
             self.state.events.push(Event::Dwell { line, seconds: Some(hole.dwell), turns: None });
         }
-        let turning = self.state.modes.spindle;
+        let turning = self.state.modes.spindle.turn;
         match hole.kind {
             CycleKind::Tap => {
-                self.state.modes.spindle = reversed(turning);
+                self.state.modes.spindle.turn = reversed(turning);
                 self.up_and_down(Course::Thread, hole.clear, Some(hole.rate));
             }
             CycleKind::FeedOut => self.up_and_down(Course::Feed, hole.clear, Some(hole.rate)),
             _ => {}
         }
-        self.state.modes.spindle = turning;
+        self.state.modes.spindle.turn = turning;
         self.up_and_down(Course::Rapid, hole.rest, None);
         self.state.cycle = None;
         Ok(())
@@ -377,8 +378,8 @@ impl Klartext<'_> {
     /// In a floating holder the tap goes at Q206 while the spindle turns: the lead is what is
     /// left of it for a turn.
     fn lead_of(&self, feed: f64) -> Result<Rate, Fault> {
-        let turning = self.state.modes.spindle != Spindle::Off;
-        match (self.rate_of(feed), self.state.modes.speed) {
+        let turning = self.state.modes.spindle.turn != Spindle::Off;
+        match (self.rate_of(feed), self.state.modes.spindle.speed) {
             (Rate::PerMinute(feed), Some(Speed::Turns(turns))) if turning && turns > 0.0 => {
                 Ok(Rate::PerTurn(feed / turns))
             }
@@ -393,7 +394,7 @@ impl Klartext<'_> {
     /// A pitch below zero cuts a left-hand thread, with the spindle turning that way.
     fn check_sense(&self, pitch: f64) -> Result<(), Fault> {
         let turns = if pitch > 0.0 { Spindle::Clockwise } else { Spindle::Counterclockwise };
-        if self.state.modes.spindle == Spindle::Off || self.state.modes.spindle == turns {
+        if self.state.modes.spindle.turn == Spindle::Off || self.state.modes.spindle.turn == turns {
             return Ok(());
         }
         let message = "the sign of Q239 asks for the other sense than the spindle turns in";

@@ -195,7 +195,7 @@ impl Klartext<'_> {
             }
             ["M128"] => self.state.begin_stated_tip_control(),
             ["CC", ..] => self.pole(&line.words[1..]),
-            ["C" | "CR" | "CP", ..] if self.state.modes.tip_control => {
+            ["C" | "CR" | "CP", ..] if self.state.modes.frame.tip_control => {
                 self.state.refuse_under_tip_control("an arc")
             }
             ["C", ..] => self.arc(&line.words[1..]),

@@ -46,7 +46,7 @@ impl Klartext<'_> {
             self.state.change(number);
         }
         if speed.is_some() {
-            self.state.modes.speed = speed.map(Speed::Turns);
+            self.state.modes.spindle.speed = speed.map(Speed::Turns);
         }
         self.state.feed = feed.or(self.state.feed);
         Ok(())

@@ -340,13 +340,13 @@ impl Sinumerik<'_> {
                     // One group with G96: a feed mode ends a surface speed.
                     if state.surface {
                         state.surface = false;
-                        state.modes.speed = None;
+                        state.modes.spindle.speed = None;
                     }
                     self.feed_mode(mode);
                 }
                 Function::Surface { on, feed } => {
                     if on != state.surface {
-                        state.modes.speed = None;
+                        state.modes.spindle.speed = None;
                     }
                     state.surface = on;
                     state.certain.say(StartMode::Surface);
@@ -383,14 +383,14 @@ impl Sinumerik<'_> {
             self.change(next);
         }
         if let Some(edge) = said.edge {
-            self.state.modes.length_offset = Some(edge).filter(|edge| *edge > 0);
+            self.state.modes.length.offset = Some(edge).filter(|edge| *edge > 0);
         }
         Ok(())
     }
 
     /// A new tool comes with an edge that the machine chooses, until D names it.
     fn change(&mut self, tool: u32) {
-        self.state.modes.length_offset = None;
+        self.state.modes.length.offset = None;
         self.state.change(tool);
     }
 
@@ -398,12 +398,12 @@ impl Sinumerik<'_> {
         let dwells = said.has(8) == Some(Function::Dwell);
         let state = &mut self.state;
         if let Some(speed) = said.spindle.speed.filter(|_| !dwells) {
-            state.modes.speed = Some(match state.surface {
+            state.modes.spindle.speed = Some(match state.surface {
                 true => Speed::Surface(speed * if state.metric { 1.0 } else { FOOT }),
                 false => Speed::Turns(speed),
             });
         }
-        state.modes.speed_limit = said.spindle.limit.or(state.modes.speed_limit);
+        state.modes.spindle.speed_limit = said.spindle.limit.or(state.modes.spindle.speed_limit);
         for auxiliary in &said.auxiliaries {
             match auxiliary {
                 Auxiliary::Clockwise => state.turn_spindle(Spindle::Clockwise),
@@ -412,14 +412,14 @@ impl Sinumerik<'_> {
                 Auxiliary::Live(way) => state.turn_spindle(*way),
                 // The spindle stands and becomes an axis.
                 Auxiliary::Other(70) => state.turn_spindle(Spindle::Off),
-                Auxiliary::SpindleRange(range) => state.modes.spindle_range = Some(*range),
+                Auxiliary::SpindleRange(range) => state.modes.spindle.range = Some(*range),
                 Auxiliary::Coolant(on) => state.cool(*on),
                 _ => {}
             }
         }
         if said.spindle.position.is_some() {
             state.turn_spindle(Spindle::Off);
-            state.modes.orientation = said.spindle.position;
+            state.modes.spindle.orientation = said.spindle.position;
         }
     }
 

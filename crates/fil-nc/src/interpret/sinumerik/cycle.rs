@@ -171,7 +171,7 @@ impl Sinumerik<'_> {
         };
         self.go(&at, at.rest, Course::Rapid, None);
         if call.number == 86 {
-            self.state.modes.spindle = sense(call.need("SDIR")?)?;
+            self.state.modes.spindle.turn = sense(call.need("SDIR")?)?;
         }
         self.state.cycle = None;
         result
@@ -275,13 +275,13 @@ impl Sinumerik<'_> {
         }
         let turning = if pitch > 0.0 { Spindle::Clockwise } else { Spindle::Counterclockwise };
         let rate = Some(Rate::PerTurn(pitch.abs()));
-        self.state.modes.speed = Some(Speed::Turns(speed));
-        self.state.modes.spindle = turning;
+        self.state.modes.spindle.speed = Some(Speed::Turns(speed));
+        self.state.modes.spindle.turn = turning;
         self.go(at, at.bottom, Course::Thread, rate);
         self.wait(call.get("DTB"));
-        self.state.modes.spindle = reversed(turning);
+        self.state.modes.spindle.turn = reversed(turning);
         self.go(at, at.clear, Course::Thread, rate);
-        self.state.modes.spindle = sense(call.need("SDAC")?)?;
+        self.state.modes.spindle.turn = sense(call.need("SDAC")?)?;
         Ok(())
     }
 
@@ -313,7 +313,7 @@ impl Sinumerik<'_> {
     fn bore(&mut self, call: &Call, at: &Levels) -> Result<(), Fault> {
         call.refuse(&["RPA", "RPO", "RPAP"])?;
         self.plain(call, at)?;
-        self.state.modes.spindle = Spindle::Off;
+        self.state.modes.spindle.turn = Spindle::Off;
         Ok(())
     }
 

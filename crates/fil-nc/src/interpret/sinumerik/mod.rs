@@ -246,7 +246,7 @@ impl Sinumerik<'_> {
             }
         }
         self.shift = shift;
-        self.state.modes.moved_zero = Some(self.state.line).filter(|_| shift != [0.0; 3]);
+        self.state.modes.frame.moved_zero = Some(self.state.line).filter(|_| shift != [0.0; 3]);
         Ok(())
     }
 

@@ -20,13 +20,13 @@ impl Sinumerik<'_> {
     /// The way into a hole along Z or X, or back out of it.
     pub(super) fn rigid_tap(&mut self, said: &Said, back: bool) -> Result<(), Fault> {
         let state = &self.state;
-        if state.modes.spindle != Spindle::Off || state.modes.orientation.is_none() {
+        if state.modes.spindle.turn != Spindle::Off || state.modes.spindle.orientation.is_none() {
             return refuse("G331 and G332 while the spindle is not under position control (SPOS)");
         }
         if state.feed_mode != FeedMode::PerMinute {
             return refuse("G331 and G332 under a feed that counts the turns of the spindle");
         }
-        if state.modes.speed.is_none() || state.surface {
+        if state.modes.spindle.speed.is_none() || state.surface {
             return refuse("G331 and G332 without the turns of the spindle (S)");
         }
         if self.called.is_some() || said.radius.is_some() || state.tilt.is_some() {
@@ -56,11 +56,11 @@ impl Sinumerik<'_> {
         self.rigid_tap_lead = Some(lead).filter(|_| !back);
         let target = self.target(said);
         let spindle = std::mem::replace(
-            &mut self.state.modes.spindle,
+            &mut self.state.modes.spindle.turn,
             if back { reversed(into) } else { into },
         );
         self.state.go(target, Course::Thread, Some(rate));
-        self.state.modes.spindle = spindle;
+        self.state.modes.spindle.turn = spindle;
         Ok(())
     }
 }

@@ -60,7 +60,7 @@ impl Sinumerik<'_> {
         if self.state.dialect.number(Numbered::LiveSpindle).is_none() {
             return self.change_spindle(on, Some(code as i32));
         }
-        if self.state.modes.spindle != Spindle::Off || self.state.live {
+        if self.state.modes.spindle.turn != Spindle::Off || self.state.live {
             return refuse("a spindle becomes an axis while it turns, or is that of a live tool");
         }
         self.is_axis = on;
@@ -101,7 +101,7 @@ impl Sinumerik<'_> {
     }
 
     fn check_no_compensation(&self) -> Result<(), Fault> {
-        match self.state.modes.compensation {
+        match self.state.modes.compensation.side {
             Compensation::Off => Ok(()),
             _ => refuse("a transformation begins or ends under compensation"),
         }
@@ -149,7 +149,7 @@ impl Sinumerik<'_> {
         if names(C) && (self.is_transformed() || !self.state.live) {
             return refuse("a word of C in a transformation, or of a spindle that is no axis");
         }
-        if self.state.live && self.state.surface && self.state.modes.spindle != Spindle::Off {
+        if self.state.live && self.state.surface && self.state.modes.spindle.turn != Spindle::Off {
             return refuse("a surface speed of a live tool");
         }
         let threads = [Function::Thread, Function::VaryingThread].map(Some);

@@ -259,7 +259,7 @@ impl<C: Steps> Walk<'_, C> {
         // A tool change may have moved the axes, and another work offset lies elsewhere: the way
         // from there is none of the CL file.
         let known = self.is_known(&self.known) && self.is_known(&found.known);
-        let begins_anywhere = self.tool_is_fresh || found.modes.fixture != self.moved_fixture;
+        let begins_anywhere = self.tool_is_fresh || found.modes.frame.fixture != self.moved_fixture;
         if !known || begins_anywhere || !turns(&self.settings.forward, &self.at, &found.to) {
             return;
         }

@@ -38,11 +38,11 @@ impl Expected {
         if self.unfollowed {
             wrong.retain(|(kind, _)| matches!(kind, FindingKind::Tool | FindingKind::Compensation));
         }
-        if modes.tip_control {
+        if modes.frame.tip_control {
             let said = "tool-tip control is on, it should be off";
             wrong.push((FindingKind::Tool, said.to_string()));
         }
-        if modes.tilted {
+        if modes.frame.tilted {
             let said = "a tilted frame is in force, it should be ended";
             wrong.push((FindingKind::Tool, said.to_string()));
         }
@@ -72,7 +72,7 @@ impl Expected {
         let of_motion = |kind: FindingKind| {
             matches!(kind, FindingKind::Spindle | FindingKind::Speed | FindingKind::Coolant)
         };
-        self.offset_on = modes.length_offset;
+        self.offset_on = modes.length.offset;
         let mut wrong = self.wrong(modes, Doing::Moving, slack);
         wrong.retain(|(kind, _)| !of_motion(*kind));
         wrong.extend(self.said.iter().filter(|(kind, _)| of_motion(*kind)).cloned());
@@ -99,7 +99,7 @@ impl Expected {
             self.spindle.flush();
             self.speed.flush();
         }
-        self.offset_on = modes.length_offset;
+        self.offset_on = modes.length.offset;
         let doing = if cuts { Doing::Cutting } else { Doing::Moving };
         let wrong = self.wrong(modes, doing, slack);
         self.news(wrong)
@@ -127,46 +127,47 @@ impl Expected {
         }
         // Between the change and the new offset, and at the end, the old one may be given up.
         // Tool-tip control has an offset, whether one is asked for or not.
-        let own = |may: Option<u32>| may.is_none() && modes.tip_control;
-        let offset = |may: Option<u32>| may == modes.length_offset || own(may);
+        let own = |may: Option<u32>| may.is_none() && modes.frame.tip_control;
+        let offset = |may: Option<u32>| may == modes.length.offset || own(may);
         let may_give_up = self.offset.next.is_some() || doing == Doing::Standing;
-        let given_up = may_give_up && modes.length_offset.is_none();
+        let given_up = may_give_up && modes.length.offset.is_none();
         if let Some(must) = self.offset.refuses(offset).filter(|_| !given_up) {
-            wrong.push((FindingKind::Tool, said_of_offset(modes.length_offset, must)));
+            wrong.push((FindingKind::Tool, said_of_offset(modes.length.offset, must)));
         }
-        let found = (modes.compensation, modes.compensation_offset);
+        let found = (modes.compensation.side, modes.compensation.offset);
         if let Some(must) = self.compensation.refuses(|may| may == found) {
             wrong.push((FindingKind::Compensation, said_of_compensation(found, must)));
         }
         wrong.extend(self.wrong_plane(modes).map(|said| (FindingKind::Compensation, said)));
-        let spindle = |may: Option<Spindle>| may.is_none_or(|may| may == modes.spindle);
+        let spindle = |may: Option<Spindle>| may.is_none_or(|may| may == modes.spindle.turn);
         if let Some(Some(must)) = self.spindle.refuses(spindle) {
             wrong.push((
                 FindingKind::Spindle,
-                said_of_spindle(modes.spindle, must, doing == Doing::Cutting),
+                said_of_spindle(modes.spindle.turn, must, doing == Doing::Cutting),
             ));
         }
-        let speed = |may: Option<Speed>| may.is_none_or(|may| same_speed(may, modes.speed, slack));
+        let speed =
+            |may: Option<Speed>| may.is_none_or(|may| same_speed(may, modes.spindle.speed, slack));
         if let Some(Some(must)) = self.speed.refuses(speed) {
-            let found = modes.speed.map_or("no speed".to_string(), said_of_speed);
+            let found = modes.spindle.speed.map_or("no speed".to_string(), said_of_speed);
             let must = said_of_speed(must);
             wrong.push((
                 FindingKind::Speed,
                 format!("the spindle has {found}, it should be {must}"),
             ));
         }
-        if let Some(speed) = modes.speed.filter(|_| !self.has_speed) {
+        if let Some(speed) = modes.spindle.speed.filter(|_| !self.has_speed) {
             let said = format!("the spindle has {}, none is asked for", said_of_speed(speed));
             wrong.push((FindingKind::Speed, said));
         }
         self.again.wrong(self, modes, &mut wrong);
-        let limit = |must: &Option<f64>| match (must, modes.speed_limit) {
+        let limit = |must: &Option<f64>| match (must, modes.spindle.speed_limit) {
             (Some(must), Some(limit)) => (must - limit).abs() > slack.of(Quantity::Speed),
             (must, limit) => must.is_some() != limit.is_some(),
         };
         if let Some(must) = self.speed_limit.filter(limit) {
             let name = |limit: Option<f64>| limit.map_or("none".to_string(), |s| s.to_string());
-            let (found, must) = (name(modes.speed_limit), name(must));
+            let (found, must) = (name(modes.spindle.speed_limit), name(must));
             let said = format!("the limit of the spindle speed is {found}, it should be {must}");
             wrong.push((FindingKind::Speed, said));
         }
@@ -181,10 +182,11 @@ impl Expected {
         let allowed = |found: Option<u32>| {
             !self.asks_fixture && found.is_some_and(|found| self.allowed_offsets.contains(&found))
         };
-        let other = |must: &Option<u32>| *must != modes.fixture && !allowed(modes.fixture);
+        let other =
+            |must: &Option<u32>| *must != modes.frame.fixture && !allowed(modes.frame.fixture);
         if let Some(must) = self.fixture.filter(other) {
             let name = |fixture: Option<u32>| fixture.map_or("none".to_string(), name_of_fixture);
-            let (found, must) = (name(modes.fixture), name(must));
+            let (found, must) = (name(modes.frame.fixture), name(must));
             wrong.push((FindingKind::Fixture, format!("work offset {found}, it should be {must}")));
         }
         wrong
@@ -192,12 +194,13 @@ impl Expected {
 
     /// What is not as it must be of the spindle's range and orientation.
     fn wrong_spindle(&self, modes: &Modes, wrong: &mut Vec<(FindingKind, String)>) {
-        if let Some(must) = self.range.filter(|must| modes.spindle_range != Some(*must)) {
-            let found = modes.spindle_range.map_or("none".to_string(), |range| range.to_string());
+        if let Some(must) = self.range.filter(|must| modes.spindle.range != Some(*must)) {
+            let found = modes.spindle.range.map_or("none".to_string(), |range| range.to_string());
             let said = format!("spindle range {found} is chosen, it should be {must}");
             wrong.push((FindingKind::Spindle, said));
         }
-        let near = |must: f64| modes.orientation.is_some_and(|is| (is - must).abs() <= ANGLE);
+        let near =
+            |must: f64| modes.spindle.orientation.is_some_and(|is| (is - must).abs() <= ANGLE);
         if let Some(must) = self.orientation.filter(|must| !near(*must)) {
             let said = format!("the spindle is not oriented at {must} degrees");
             wrong.push((FindingKind::Spindle, said));

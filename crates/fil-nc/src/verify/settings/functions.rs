@@ -141,7 +141,7 @@ impl Settings<'_> {
     }
 
     /// The work offset of SET/OFSETL as programs name it (see
-    /// [`Modes::fixture`](crate::motion::Modes)); `None` where the machine has none.
+    /// [`FrameModes::fixture`](crate::motion::Modes)); `None` where the machine has none.
     pub fn work_offset(&self, number: Option<f64>) -> Option<u32> {
         let code = |at: CodeAt| u32::try_from(self.commons.read(at)?).ok();
         let by_word = self.chooses_offsets_by_word();
