@@ -47,7 +47,7 @@ impl State<'_> {
         }
         let radius = words.take(self.dialect.letter(Role::Radius))?;
         let has_center = plane.iter().any(|axis| words.has(CENTER[*axis]));
-        let radius = radius.or(self.arc_radius.filter(|_| !has_center));
+        let radius = radius.or(self.since.arc_radius.filter(|_| !has_center));
         let (center, angle) = match radius {
             Some(radius) => self.about_radius(plane, &to, radius * self.unit(), ccw)?,
             None => {
@@ -56,7 +56,7 @@ impl State<'_> {
             }
         };
         self.check_helix(words, &to, angle)?;
-        if self.polar && to[2] != self.at[2] {
+        if self.live.polar && to[2] != self.at[2] {
             let message = "Z moves along an arc in polar interpolation";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }
@@ -65,7 +65,7 @@ impl State<'_> {
         (point[plane[0]], point[plane[1]]) = (center[0], center[1]);
         let arc = Arc { center: point, normal: self.plane, ccw, angle };
         self.travel((to, known), Course::Feed, Some(rate), Some(arc));
-        self.arc_radius = radius.filter(|_| self.dialect.has(Habit::RadiusModal));
+        self.since.arc_radius = radius.filter(|_| self.dialect.has(Habit::RadiusModal));
         Ok(())
     }
 

@@ -79,7 +79,7 @@ impl State<'_> {
             self.tell_left_to_control(uses);
         }
         if let Outcome::End(code) = outcome {
-            let modes = Modes { cycle: self.cycle.is_some(), ..self.modes };
+            let modes = Modes { cycle: self.cycle.active.is_some(), ..self.modes };
             self.events.push(Event::End { line: self.line, code: Some(code), modes });
         }
         Ok(outcome)
@@ -150,12 +150,13 @@ impl State<'_> {
             }
             _ => {}
         }
-        if self.cycle.is_some() && (words.has_axes(self.dialect) || words.has(letter(b'R'))) {
+        if self.cycle.active.is_some() && (words.has_axes(self.dialect) || words.has(letter(b'R')))
+        {
             return self.hole(words);
         }
         let arc = matches!(self.motion, Some(Function::Arc { .. }));
         let center = [b'I', b'J', b'K'].map(letter).iter().any(|letter| words.has(*letter));
-        let moves = words.has_axes(self.dialect) || (center && (arc || self.by_direction));
+        let moves = words.has_axes(self.dialect) || (center && (arc || self.head.by_direction));
         if !moves {
             return self.feed_word(words);
         }
@@ -185,8 +186,8 @@ impl State<'_> {
         let cycle = words.function(Group::Cycle);
         if motion.is_some() || cycle == Some(Function::CycleOff) {
             self.motion = motion;
-            self.cycle = None;
-            self.pass = None;
+            self.cycle.active = None;
+            self.threads.pass = None;
         }
         match cycle {
             Some(Function::Cycle(..) | Function::LiveCycle { .. }) if motion.is_some() => {
@@ -194,7 +195,7 @@ impl State<'_> {
             }
             Some(Function::Cycle(..) | Function::LiveCycle { .. }) => {
                 self.motion = None;
-                self.pass = None;
+                self.threads.pass = None;
                 Ok(cycle)
             }
             _ => Ok(None),
@@ -204,9 +205,9 @@ impl State<'_> {
     /// Takes up F.
     pub(super) fn feed_word(&mut self, words: &mut Words) -> Result<(), Fault> {
         if let Some(feed) = words.take(F)? {
-            self.feed = Some(feed);
-        } else if self.feed_mode == FeedMode::Inverse {
-            self.feed = None;
+            self.feed.word = Some(feed);
+        } else if self.feed.mode == FeedMode::Inverse {
+            self.feed.word = None;
         }
         Ok(())
     }
@@ -243,7 +244,7 @@ impl State<'_> {
         if axes.is_empty() {
             return Err(Fault::new(NcCode::MissingWord, "the axes that go there are needed"));
         }
-        self.cycle = None;
+        self.cycle.active = None;
         let (between, known) = self.target(&axes);
         if between != self.at {
             self.go((between, known), Course::Rapid, None);
@@ -291,7 +292,7 @@ impl State<'_> {
             time.ok_or_else(|| Fault::new(NcCode::MissingWord, "the time of the dwell is needed"))?;
         // Some controls count turns while the feed is one a revolution.
         let turns =
-            self.dialect.amount(Amount::DwellTurns).filter(|_| self.feed_mode == FeedMode::PerTurn);
+            self.dialect.amount(Amount::DwellTurns).filter(|_| self.feed.mode == FeedMode::PerTurn);
         let turns = turns.map(|factor| time / factor);
         let seconds = turns.is_none().then_some(time / self.dialect.factor(Amount::Dwell));
         self.events.push(Event::Dwell { line: self.line, seconds, turns });

@@ -85,7 +85,7 @@ impl State<'_> {
             dwell: None,
             dwells,
         };
-        self.cycle = Some(match self.cycle {
+        self.cycle.active = Some(match self.cycle.active {
             Some(before) => Cycle { kind, dwells, ..before },
             None => fresh,
         });
@@ -94,14 +94,14 @@ impl State<'_> {
 
     /// A hole of the cycle in force.
     pub(super) fn hole(&mut self, words: &mut Words) -> Result<(), Fault> {
-        let Some(mut cycle) = self.cycle else { return Ok(()) };
+        let Some(mut cycle) = self.cycle.active else { return Ok(()) };
         self.feed_word(words)?;
         let axes = words.take_axes(self.dialect)?;
         match cycle.live {
             Some(along) => self.live_levels(&mut cycle, along, words, &axes)?,
             None => self.levels(&mut cycle, words, &axes)?,
         }
-        self.cycle = Some(cycle);
+        self.cycle.active = Some(cycle);
         let missing =
             |what: &str| Fault::new(NcCode::MissingWord, format!("the cycle needs {what}"));
         let hole = Hole {
@@ -172,7 +172,7 @@ impl State<'_> {
         while let Some(step) = step.filter(|step| reached - step > hole.bottom + 1e-9) {
             reached -= step;
             self.step(&[(hole.axis, reached)], Course::Feed, rate);
-            if whole(&self.cycle) {
+            if whole(&self.cycle.active) {
                 self.step(&[(hole.axis, hole.clear)], Course::Rapid, None);
             }
             let again = (reached + PECK_GAP).min(hole.clear);
@@ -200,9 +200,9 @@ impl State<'_> {
             CycleKind::StopOut => self.modes.spindle.turn = Spindle::Off,
             CycleKind::Drill | CycleKind::Peck | CycleKind::BreakChips => {}
         }
-        let rest = if self.return_initial { cycle.initial } else { hole.clear };
+        let rest = if self.cycle.returns_initial { cycle.initial } else { hole.clear };
         // Where the tool rests behind another zero is known as little as where it came from.
-        self.known[hole.axis] = !self.return_initial || cycle.initial_known;
+        self.known[hole.axis] = !self.cycle.returns_initial || cycle.initial_known;
         self.step(&[(hole.axis, rest)], Course::Rapid, None);
         self.modes.spindle.turn = turning;
         Ok(())

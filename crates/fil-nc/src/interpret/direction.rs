@@ -35,7 +35,7 @@ const K: u8 = letter(b'K');
 impl State<'_> {
     /// The positions of the rotary axes for I, J and K, where a block has them.
     pub(super) fn direction_words(&mut self, words: &mut Words) -> Result<Option<[f64; 2]>, Fault> {
-        if !self.by_direction {
+        if !self.head.by_direction {
             return Ok(None);
         }
         if let Some(range) =

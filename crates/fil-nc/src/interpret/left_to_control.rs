@@ -51,7 +51,7 @@ impl State<'_> {
                     || found.modes.compensation.side != Compensation::Off
             }),
             StartMode::ReturnLevel => {
-                self.cycle.is_some_and(|cycle| !cycle.keeps_its_level()) && any(&of_cycle)
+                self.cycle.active.is_some_and(|cycle| !cycle.keeps_its_level()) && any(&of_cycle)
             }
             StartMode::Surface => uses.speed && self.modes.spindle.speed.is_some(),
         }

@@ -36,11 +36,11 @@ impl State<'_> {
         if self.modes.spindle.turn != Spindle::Off {
             return refuse("the main spindle changes its mode while a spindle turns");
         }
-        if self.polar || self.cylinder.is_some() {
+        if self.live.polar || self.live.cylinder.is_some() {
             return refuse("the main spindle changes its mode within an interpolation");
         }
         self.modes.spindle.speed = None;
-        self.live = on;
+        self.live.is_on = on;
         self.at[C] = 0.0;
         self.known[C] = !on;
         self.events.push(Event::Auxiliary { line: self.line, code });
@@ -49,7 +49,7 @@ impl State<'_> {
 
     /// The live tool turns, where the main spindle is an axis; it stands otherwise.
     pub(super) fn turn_live_tool(&mut self, turn: Spindle) -> Result<(), Fault> {
-        match (self.live, turn) {
+        match (self.live.is_on, turn) {
             (true, turn) => self.turn_spindle(turn),
             (false, Spindle::Off) => {}
             (false, _) => return refuse("a live tool turns while the main spindle is no axis"),
@@ -79,10 +79,10 @@ impl State<'_> {
             return Ok(());
         }
         let turns = self.modes.spindle.turn != Spindle::Off;
-        if self.live && self.surface && turns {
+        if self.live.is_on && self.surface && turns {
             return refuse("a surface speed of a live tool");
         }
-        if self.live
+        if self.live.is_on
             && matches!(
                 self.motion,
                 Some(Function::Thread | Function::VaryingThread | Function::ThreadPass)
@@ -90,7 +90,7 @@ impl State<'_> {
         {
             return refuse("a thread while the main spindle is the axis C");
         }
-        if !self.live && words.has_rotary(self.dialect) {
+        if !self.live.is_on && words.has_rotary(self.dialect) {
             return refuse("a word of C while the main spindle is no axis");
         }
         Ok(())
@@ -99,10 +99,10 @@ impl State<'_> {
     /// Refuses what may not stand in a block of polar interpolation: its manual names the functions
     /// that may.
     pub(super) fn check_live_words(&self, words: &Words) -> Result<(), Fault> {
-        if self.polar && words.peek(Group::Surface).is_some() {
+        if self.live.polar && words.peek(Group::Surface).is_some() {
             return refuse("a speed mode in polar interpolation, which takes none");
         }
-        if self.polar && words.peek(Group::Plane).is_some() {
+        if self.live.polar && words.peek(Group::Plane).is_some() {
             return refuse("a plane is chosen in polar interpolation, which has its own");
         }
         Ok(())
@@ -111,13 +111,13 @@ impl State<'_> {
     /// A block of polar or cylindrical interpolation; false for another block.
     pub(super) fn interpolation_block(&mut self, words: &mut Words) -> Result<bool, Fault> {
         let Some(function) = words.function(Group::Interpolation) else { return Ok(false) };
-        if !self.live {
+        if !self.live.is_on {
             return refuse("the main spindle is no axis");
         }
         if self.modes.compensation.side != Compensation::Off {
             return refuse("an interpolation begins or ends under cutter compensation");
         }
-        if self.cycle.is_some() {
+        if self.cycle.active.is_some() {
             return refuse("an interpolation begins or ends in a cycle");
         }
         match function {
@@ -130,7 +130,7 @@ impl State<'_> {
     }
 
     pub(super) fn begin_polar(&mut self) -> Result<(), Fault> {
-        if self.polar || self.cylinder.is_some() {
+        if self.live.polar || self.live.cylinder.is_some() {
             return refuse("polar interpolation within an interpolation");
         }
         if !self.known[C] || self.at[C].abs() > SAME_ANGLE {
@@ -142,18 +142,18 @@ impl State<'_> {
         if self.at[1] != 0.0 {
             return refuse("polar interpolation begins with Y beside the axis");
         }
-        self.polar = true;
-        self.plane_before = std::mem::replace(&mut self.plane, 2);
+        self.live.polar = true;
+        self.planes.before = std::mem::replace(&mut self.plane, 2);
         self.known[1] = true;
         Ok(())
     }
 
     pub(super) fn end_polar(&mut self) -> Result<(), Fault> {
-        if !self.polar {
+        if !self.live.polar {
             return refuse("polar interpolation ends and none has begun");
         }
-        self.polar = false;
-        self.plane = self.plane_before;
+        self.live.polar = false;
+        self.plane = self.planes.before;
         self.at[C] = libm::atan2(self.at[1], self.at[0]).to_degrees();
         self.at[0] = libm::hypot(self.at[0], self.at[1]);
         self.at[1] = 0.0;
@@ -168,25 +168,25 @@ impl State<'_> {
             return refuse("cylindrical interpolation needs its radius");
         };
         if radius == 0.0 {
-            if self.cylinder.take().is_none() {
+            if self.live.cylinder.take().is_none() {
                 return refuse("cylindrical interpolation ends and none has begun");
             }
             return Ok(());
         }
-        if self.polar || self.cylinder.is_some() || radius < 0.0 {
+        if self.live.polar || self.live.cylinder.is_some() || radius < 0.0 {
             return refuse("cylindrical interpolation within an interpolation, or below zero");
         }
         if self.motion != Some(Function::Linear) {
             return refuse("cylindrical interpolation begins under another function than G1");
         }
-        self.cylinder = Some(radius);
+        self.live.cylinder = Some(radius);
         Ok(())
     }
 
     /// An axis word as the control takes it: C is the second axis of the plane in polar
     /// interpolation.
     pub(super) fn in_plane(&self, word: AxisWord) -> AxisWord {
-        match self.polar && word.axis == C {
+        match self.live.polar && word.axis == C {
             true => AxisWord { axis: 1, ..word },
             false => word,
         }
@@ -194,24 +194,24 @@ impl State<'_> {
 
     /// How a straight motion of a mill-turn machine is driven, and whether it can be made.
     pub(super) fn live_course(&self, to: &Axes, course: Course) -> Result<Course, Fault> {
-        if !self.live {
+        if !self.live.is_on {
             return Ok(course);
         }
         let turns = (to[C] - self.at[C]).abs() > SAME_ANGLE || !self.known[C];
         if course == Course::Rapid {
-            if self.polar || self.cylinder.is_some() {
+            if self.live.polar || self.live.cylinder.is_some() {
                 return refuse("rapid traverse within polar or cylindrical interpolation");
             }
             return Ok(course);
         }
-        if self.feed_mode == FeedMode::PerTurn {
+        if self.feed.mode == FeedMode::PerTurn {
             return refuse("a feed a turn of a main spindle that is the axis C");
         }
-        if self.polar {
+        if self.live.polar {
             return self.polar_course(to, course);
         }
         if turns && course == Course::Feed {
-            let Some(radius) = self.cylinder else {
+            let Some(radius) = self.live.cylinder else {
                 return refuse("C turns at a feed a minute that counts on no cylinder");
             };
             if [self.at[0], to[0]].iter().any(|x| (x - radius).abs() > DIGITS) {
@@ -238,7 +238,7 @@ impl State<'_> {
                 "Z moves together with X and C in polar interpolation, which leads those two only",
             );
         }
-        let feed = self.feed.map(|feed| feed * self.unit());
+        let feed = self.feed.word.map(|feed| feed * self.unit());
         let rapid = self.dialect.amount(Amount::PolarRapid);
         let is_rapid = feed.zip(rapid).is_some_and(|(feed, rapid)| (feed - rapid).abs() < 0.5);
         Ok(if is_rapid { Course::Rapid } else { course })

@@ -23,15 +23,15 @@ impl State<'_> {
         kind: CycleKind,
         words: &mut Words,
     ) -> Result<(), Fault> {
-        if !self.live {
+        if !self.live.is_on {
             return refuse("a cycle of live tools while the main spindle is no axis");
         }
-        if self.polar || self.cylinder.is_some() {
+        if self.live.polar || self.live.cylinder.is_some() {
             return refuse("a cycle of live tools within polar or cylindrical interpolation");
         }
         let along = if side { 0 } else { 2 };
         let fresh = Cycle::of_hole(kind, self.at[along], self.known[along]);
-        self.cycle = Some(Cycle { live: Some(along), ..fresh });
+        self.cycle.active = Some(Cycle { live: Some(along), ..fresh });
         self.hole(words)
     }
 

@@ -24,16 +24,16 @@ impl State<'_> {
         if let Some(Function::Units { metric }) = words.function(Group::Units) {
             self.certain.say(StartMode::Unit);
             if self.metric != metric {
-                self.feed = None;
+                self.feed.word = None;
             }
             self.set_metric(metric);
         }
         if let Some(Function::Feed(mode)) = words.function(Group::Feed) {
             self.certain.say(StartMode::Feed);
-            if self.feed_mode != mode {
-                self.feed = None;
+            if self.feed.mode != mode {
+                self.feed.word = None;
             }
-            self.feed_mode = mode;
+            self.feed.mode = mode;
         }
         if let Some(Function::Plane(normal)) = words.function(Group::Plane) {
             self.plane = normal;
@@ -45,7 +45,7 @@ impl State<'_> {
             self.certain.say(StartMode::Positions);
         }
         if let Some(Function::Return { initial }) = words.function(Group::Return) {
-            self.return_initial = initial;
+            self.cycle.returns_initial = initial;
             self.certain.say(StartMode::ReturnLevel);
         }
         self.work_offset(words)?;
@@ -96,7 +96,7 @@ impl State<'_> {
     pub(super) fn fixture(&mut self, code: u32) {
         if self.moves_fixture(code) {
             // C of a spindle that turns counts from nothing.
-            let turns = self.dialect.turning.live_at_start.is_some() && !self.live;
+            let turns = self.dialect.turning.live_at_start.is_some() && !self.live.is_on;
             let counts =
                 |axis: &usize| self.dialect.axes[*axis].scale.is_some() && !(turns && *axis > 2);
             for axis in (0..5).filter(counts) {
@@ -191,11 +191,11 @@ impl State<'_> {
                 Auxiliary::Side(turn) => self.turn_one(true, *turn),
                 Auxiliary::CAxis(on, code) => self.change_spindle(*on, *code)?,
                 Auxiliary::Live(turn) => self.turn_live_tool(*turn)?,
-                Auxiliary::Clockwise if self.live => self.turn_main(Spindle::Clockwise)?,
-                Auxiliary::Counterclockwise if self.live => {
+                Auxiliary::Clockwise if self.live.is_on => self.turn_main(Spindle::Clockwise)?,
+                Auxiliary::Counterclockwise if self.live.is_on => {
                     self.turn_main(Spindle::Counterclockwise)?;
                 }
-                Auxiliary::SpindleOff if self.live => self.turn_main(Spindle::Off)?,
+                Auxiliary::SpindleOff if self.live.is_on => self.turn_main(Spindle::Off)?,
                 Auxiliary::Clockwise => self.turn_one(false, Spindle::Clockwise),
                 Auxiliary::Counterclockwise => self.turn_one(false, Spindle::Counterclockwise),
                 Auxiliary::SpindleOff => self.turn_one(false, Spindle::Off),
@@ -267,11 +267,11 @@ impl State<'_> {
         offset: Option<u32>,
     ) -> Result<(), Fault> {
         let switches = side != self.modes.compensation.side;
-        if switches && side != Compensation::Off && self.compensation_rests {
+        if switches && side != Compensation::Off && self.since.compensation_rests {
             let message = "cutter compensation is switched twice, and nothing moves in between";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }
-        self.compensation_rests |= switches;
+        self.since.compensation_rests |= switches;
         self.modes.compensation.side = side;
         self.modes.compensation.offset = offset;
         Ok(())
@@ -320,7 +320,7 @@ impl State<'_> {
     }
 
     pub(super) fn change(&mut self, tool: u32) {
-        let modes = Modes { cycle: self.cycle.is_some(), ..self.modes };
+        let modes = Modes { cycle: self.cycle.active.is_some(), ..self.modes };
         self.events.push(Event::ToolChange { line: self.line, tool, modes });
         self.length_is_on = false;
         self.modes.length.uncalled = self.dialect.has(Habit::CallsLengths);

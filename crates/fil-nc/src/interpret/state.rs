@@ -14,6 +14,77 @@ use crate::motion::{
 /// X, Y, Z in mm, primary and secondary rotary axis in degrees.
 pub(super) type Axes = [f64; 5];
 
+/// F words.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Feed {
+    pub(super) mode: FeedMode,
+    /// F as on the tape.
+    pub(super) word: Option<f64>,
+}
+
+/// Where planes were chosen; by the index of their normals.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Planes {
+    /// The plane that was said last, and the line of that.
+    pub(super) said: usize,
+    pub(super) line: u32,
+    /// The plane in force before polar interpolation.
+    pub(super) before: usize,
+}
+
+/// What ends with the next motion.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct SinceMotion {
+    /// Radius of the arc that the last motion made, as on the tape, where the next arc
+    /// may leave it out.
+    pub(super) arc_radius: Option<f64>,
+    /// Cutter compensation was switched.
+    pub(super) compensation_rests: bool,
+    /// Tool center point control has ended: X, Y and Z are those of the tip.
+    pub(super) was_tip: bool,
+}
+
+/// The cycle of the control.
+#[derive(Default)]
+pub(super) struct ActiveCycle {
+    pub(super) active: Option<Cycle>,
+    /// A cycle of a SINUMERIK is called at each position (MCALL).
+    pub(super) at_each: bool,
+    /// Holes return to the level before the cycle.
+    pub(super) returns_initial: bool,
+}
+
+/// How the head and the tables hold the tool.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Head {
+    /// The tilted work plane in force.
+    pub(super) tilt: Option<Tilt>,
+    /// The tool lies along its Z.
+    pub(super) aligned: bool,
+    /// Words of I, J and K are the direction of the tool, and no words of rotary axes are taken.
+    pub(super) by_direction: bool,
+}
+
+/// The main spindle of a mill-turn machine as the axis C.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LiveAxis {
+    /// It is one.
+    pub(super) is_on: bool,
+    /// X and C are a plane of lengths.
+    pub(super) polar: bool,
+    /// Radius of the cylinder on which the feed counts, mm.
+    pub(super) cylinder: Option<f64>,
+}
+
+/// Threading cycles.
+#[derive(Default)]
+pub(super) struct ThreadCycles {
+    pub(super) pass: Option<Pass>,
+    pub(super) setup: Option<Setup>,
+    /// They leave the thread at an angle, where M codes switch that and one has.
+    pub(super) leaves: Option<bool>,
+}
+
 /// The control.
 pub(super) struct State<'d> {
     pub(super) dialect: &'d Dialect,
@@ -25,54 +96,27 @@ pub(super) struct State<'d> {
     pub(super) zero: [f64; 3],
     /// Motion function in force.
     pub(super) motion: Option<Function>,
+    /// The plane in force, by the index of its normal.
     pub(super) plane: usize,
-    /// The plane that was said last, by the index of its normal, and the line of that.
-    pub(super) said_plane: usize,
-    pub(super) plane_line: u32,
+    pub(super) planes: Planes,
     pub(super) metric: bool,
     pub(super) absolute: bool,
-    pub(super) feed_mode: FeedMode,
-    /// F as on the tape.
-    pub(super) feed: Option<f64>,
-    /// Radius of the arc that the last motion made, as on the tape, where the next arc
-    /// may leave it out.
-    pub(super) arc_radius: Option<f64>,
+    pub(super) feed: Feed,
+    pub(super) since: SinceMotion,
     /// The function of the length offset stood behind the last tool change.
     pub(super) length_is_on: bool,
-    /// Cutter compensation was switched, and nothing has moved since.
-    pub(super) compensation_rests: bool,
     /// S is a surface speed.
     pub(super) surface: bool,
-    pub(super) return_initial: bool,
     /// The modes that a block has said, or the machine.
     pub(super) certain: Certain,
-    pub(super) cycle: Option<Cycle>,
-    /// A cycle of a SINUMERIK is called at each position (MCALL).
-    pub(super) is_called_at_each: bool,
-    /// Words of I, J and K are the direction of the tool, and no words of rotary axes are taken.
-    pub(super) by_direction: bool,
-    /// The tilted frame in force.
-    pub(super) tilt: Option<Tilt>,
-    /// Nothing has moved since tool-tip control ended: X, Y and Z are those of the tip.
-    pub(super) was_tip: bool,
-    /// The main spindle of a mill-turn machine is the axis C.
-    pub(super) live: bool,
-    /// X and C are a plane of lengths.
-    pub(super) polar: bool,
-    /// The plane in force before it.
-    pub(super) plane_before: usize,
-    /// Radius of the cylinder on which the feed counts, mm.
-    pub(super) cylinder: Option<f64>,
-    /// The tool lies along its Z.
-    pub(super) aligned: bool,
-    pub(super) pass: Option<Pass>,
-    /// Threading cycles leave the thread at an angle, where M codes switch that and one has.
-    pub(super) leaves_threads: Option<bool>,
-    pub(super) setup: Option<Setup>,
+    pub(super) cycle: ActiveCycle,
+    pub(super) head: Head,
+    pub(super) live: LiveAxis,
+    pub(super) threads: ThreadCycles,
     /// Tool that the next change takes.
     pub(super) next_tool: Option<u32>,
     pub(super) modes: Modes,
-    /// The spindle that is not counted.
+    /// The spindle that is not the master spindle.
     pub(super) other_spindle: SpindleModes,
     /// Events of the block; they count when the whole block has a meaning.
     pub(super) events: Vec<Event>,
@@ -95,31 +139,28 @@ impl<'d> State<'d> {
             zero: [0.0; 3],
             motion: None,
             plane: dialect.start.plane,
-            said_plane: if dialect.is_lathe() { dialect.start.plane } else { DRILLED },
-            plane_line: 0,
+            planes: Planes {
+                said: if dialect.is_lathe() { dialect.start.plane } else { DRILLED },
+                line: 0,
+                before: dialect.start.plane,
+            },
             metric: dialect.has(Habit::Metric),
             absolute: dialect.has(Habit::Absolute),
-            feed_mode: dialect.start.feed_mode,
-            feed: None,
-            arc_radius: None,
+            feed: Feed { mode: dialect.start.feed_mode, word: None },
+            since: SinceMotion::default(),
             length_is_on: false,
-            compensation_rests: false,
             surface: false,
-            return_initial: dialect.has(Habit::ReturnsInitial),
             certain: dialect.start.certain,
-            cycle: None,
-            is_called_at_each: false,
-            by_direction: false,
-            tilt: None,
-            was_tip: false,
-            aligned: false,
-            live: dialect.turning.live_at_start == Some(true),
-            polar: false,
-            plane_before: dialect.start.plane,
-            cylinder: None,
-            pass: None,
-            leaves_threads: None,
-            setup: None,
+            cycle: ActiveCycle {
+                returns_initial: dialect.has(Habit::ReturnsInitial),
+                ..ActiveCycle::default()
+            },
+            head: Head::default(),
+            live: LiveAxis {
+                is_on: dialect.turning.live_at_start == Some(true),
+                ..LiveAxis::default()
+            },
+            threads: ThreadCycles::default(),
             next_tool: None,
             modes: Modes { inch: !dialect.has(Habit::Metric), ..Modes::default() },
             other_spindle: SpindleModes::default(),
@@ -130,27 +171,27 @@ impl<'d> State<'d> {
 
     /// Remembers where the plane in force was said first.
     pub(super) fn say_plane(&mut self, normal: usize) {
-        if self.said_plane != normal || self.plane_line == 0 {
-            (self.said_plane, self.plane_line) = (normal, self.line);
+        if self.planes.said != normal || self.planes.line == 0 {
+            (self.planes.said, self.planes.line) = (normal, self.line);
         }
     }
 
     /// The plane in force on a SINUMERIK, where it is not that in which the lengths of the tool
     /// count rightly: X and Y in TRANSMIT, Z and X on a lathe, else that which the tool is square to.
     fn other_plane(&self) -> Option<OtherPlane> {
-        let is_open = self.live && !self.dialect.has(Habit::Transforms);
+        let is_open = self.live.is_on && !self.dialect.has(Habit::Transforms);
         if !self.dialect.counts_lengths_in_plane() || is_open {
             return None;
         }
-        self.plane_but(if self.polar { DRILLED } else { self.dialect.plane_of_lengths() })
+        self.plane_but(if self.live.polar { DRILLED } else { self.dialect.plane_of_lengths() })
     }
 
     /// The plane in force, where it is another one than must be.
     pub(super) fn plane_but(&self, must: usize) -> Option<OtherPlane> {
         // Of a plane that neither the program nor the machine says that much is told elsewhere.
-        let is_unsaid = self.plane_line == 0 && !self.dialect.start.certain.has(StartMode::Plane);
+        let is_unsaid = self.planes.line == 0 && !self.dialect.start.certain.has(StartMode::Plane);
         let is_other = self.plane != must && !is_unsaid;
-        is_other.then_some(OtherPlane { normal: self.plane, must, line: self.plane_line })
+        is_other.then_some(OtherPlane { normal: self.plane, must, line: self.planes.line })
     }
 
     /// Takes the unit of what follows.
@@ -209,9 +250,9 @@ impl<'d> State<'d> {
 
     /// The feed in force.
     pub(super) fn rate(&self) -> Result<Rate, Fault> {
-        let feed = self.feed.filter(|feed| *feed > 0.0);
+        let feed = self.feed.word.filter(|feed| *feed > 0.0);
         let feed = feed.ok_or_else(|| Fault::new(NcCode::NoFeed, "no F word is in force"))?;
-        Ok(match self.feed_mode {
+        Ok(match self.feed.mode {
             FeedMode::PerMinute => {
                 Rate::PerMinute(feed / self.dialect.factor(Amount::Feed) * self.unit())
             }
@@ -239,21 +280,19 @@ impl<'d> State<'d> {
         arc: Option<Arc>,
     ) {
         (self.at, self.known) = (to, known);
-        self.arc_radius = None;
-        self.was_tip = false;
-        self.compensation_rests = false;
+        self.since = SinceMotion::default();
         let [x, y, z, primary, secondary] = to;
-        let usual = [DRILLED, self.dialect.start.plane].contains(&self.said_plane);
+        let usual = [DRILLED, self.dialect.start.plane].contains(&self.planes.said);
         let is_other =
             !usual && !self.dialect.is_lathe() && !self.dialect.counts_lengths_in_plane();
-        let plane = is_other.then_some((self.said_plane, self.plane_line));
+        let plane = is_other.then_some((self.planes.said, self.planes.line));
         let other_plane = self.other_plane().filter(|_| course != Course::Machine);
         let is_compensated = self.modes.compensation.side != Compensation::Off;
         let mut modes = self.modes;
         modes.planes = PlaneModes { unusual: plane, other: other_plane };
         modes.compensation.plane = is_compensated.then_some(self.plane);
-        let transformed =
-            self.dialect.has(Habit::Transforms) && (self.polar || self.cylinder.is_some());
+        let transformed = self.dialect.has(Habit::Transforms)
+            && (self.live.polar || self.live.cylinder.is_some());
         self.events.push(Event::Move(Move {
             line: self.line,
             course,
@@ -261,12 +300,13 @@ impl<'d> State<'d> {
                 linear: [x, y, z],
                 rotary: [primary, secondary],
                 tip_control: self.modes.frame.tip_control,
-                tilt: self.tilt,
+                tilt: self.head.tilt,
                 transformed,
             },
             arc,
             rate,
-            in_cycle: course != Course::Machine && (self.cycle.is_some() || self.pass.is_some()),
+            in_cycle: course != Course::Machine
+                && (self.cycle.active.is_some() || self.threads.pass.is_some()),
             known,
             to_machine: [false; 5],
             modes,

@@ -108,12 +108,12 @@ impl State<'_> {
         letters: &[u8],
         in_force: Option<f64>,
     ) -> Result<f64, Fault> {
-        let is_per_minute = self.feed_mode == FeedMode::PerMinute;
+        let is_per_minute = self.feed.mode == FeedMode::PerMinute;
         if is_per_minute && self.dialect.has(Habit::ThreadsNeedTurns) && letters.contains(&F) {
             let message = "a thread under a feed a minute, where this machine needs one a turn";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }
-        self.feed = None;
+        self.feed.word = None;
         let letter = letters.iter().find(|letter| words.has(**letter));
         let said = letter.map(|letter| words.take(*letter)).transpose()?.flatten();
         said.map(|lead| lead * self.unit())
@@ -124,7 +124,7 @@ impl State<'_> {
 
     /// In, along, out and back to where it began.
     pub(super) fn thread_pass(&mut self, words: &mut Words) -> Result<(), Fault> {
-        let before = self.pass;
+        let before = self.threads.pass;
         let (lead, is_share) = self.lead_of_pass(words, before)?;
         let axes = words.take_axes(self.dialect)?;
         let taper = match words.take(self.dialect.letter(Role::ThreadTaper))? {
@@ -136,7 +136,7 @@ impl State<'_> {
         let leaves = self.way_out(None)? * lead;
         let pass = Pass { x, z, taper: taper.unwrap_or(0.0), lead, leaves };
         // A number of threads acts in its block, and what F counts behind it no block says.
-        self.pass = Some(Pass { lead: if is_share { 0.0 } else { lead }, ..pass });
+        self.threads.pass = Some(Pass { lead: if is_share { 0.0 } else { lead }, ..pass });
         self.cut(pass, 0.0);
         Ok(())
     }
@@ -165,7 +165,7 @@ impl State<'_> {
     pub(super) fn way_out(&self, said: Option<f64>) -> Result<f64, Fault> {
         let Some(way_out) = self.dialect.turning.way_out else { return Ok(said.unwrap_or(0.0)) };
         let refuse = |why: &str| Err(Fault::new(NcCode::NoMeaning, why));
-        match (self.leaves_threads, said.or(way_out.leads)) {
+        match (self.threads.leaves, said.or(way_out.leads)) {
             (Some(false), _) => Ok(0.0),
             (Some(true), Some(leads)) => Ok(leads),
             (Some(true), None) => refuse(
@@ -182,7 +182,7 @@ impl State<'_> {
             return;
         };
         if code == on || code == off {
-            self.leaves_threads = Some(code == on);
+            self.threads.leaves = Some(code == on);
         }
     }
 
@@ -233,11 +233,11 @@ impl State<'_> {
     /// The threading cycle of all passes, in one block or in two.
     pub(super) fn thread_passes(&mut self, words: &mut Words) -> Result<(), Fault> {
         if !words.has_axes(self.dialect) {
-            self.setup = Some(self.first_block(words)?);
+            self.threads.setup = Some(self.first_block(words)?);
             return Ok(());
         }
         let lead = self.lead(words, &[F], None)?;
-        let thread = match self.setup.take() {
+        let thread = match self.threads.setup.take() {
             Some(setup) => self.second_block(words, setup, lead)?,
             None => self.only_block(words, lead)?,
         };
@@ -335,7 +335,7 @@ impl State<'_> {
         }
         depths.extend((0..=springs).map(|_| height));
         let crest = drive + to_crest;
-        self.pass = Some(Pass { x: crest, z, taper: 0.0, lead, leaves: 0.0 });
+        self.threads.pass = Some(Pass { x: crest, z, taper: 0.0, lead, leaves: 0.0 });
         for depth in depths {
             let x = crest + into * depth;
             let clear = x - into * (to_crest.abs() + height);
@@ -357,7 +357,7 @@ impl State<'_> {
             self.step(&[(X, clear)], Course::Rapid, None);
         }
         self.step(&[(X, drive), (Z, z)], Course::Rapid, None);
-        self.pass = None;
+        self.threads.pass = None;
         Ok(())
     }
 
@@ -379,12 +379,12 @@ impl State<'_> {
     fn passes(&mut self, thread: &Thread) -> Result<(), Fault> {
         let out = (self.at[X] - thread.last.x).signum();
         let slope = libm::tan((thread.setup.angle / 2.0).to_radians());
-        self.pass = Some(thread.last);
+        self.threads.pass = Some(thread.last);
         for depth in depths(thread)? {
             let x = thread.last.x + out * (thread.height - depth);
             self.cut(Pass { x, ..thread.last }, depth * slope);
         }
-        self.pass = None;
+        self.threads.pass = None;
         Ok(())
     }
 }

@@ -53,7 +53,7 @@ impl State<'_> {
                 let turn = about(Z, first) * about(X, tilt) * about(Z, last);
                 let origin = Point3::new(x, y, z) * self.unit();
                 self.begin_tilt(Tilt { turn, origin })?;
-                self.aligned = false;
+                self.head.aligned = false;
             }
             Some(_) => self.end_tilt(),
             None => {}
@@ -69,7 +69,7 @@ impl State<'_> {
     /// Takes a frame up; the tool need not lie along its Z yet.
     pub(super) fn begin_tilt(&mut self, tilt: Tilt) -> Result<(), Fault> {
         let refuse = |why: &str| Err(Fault::new(NcCode::NoMeaning, why));
-        if self.tilt.is_some() {
+        if self.head.tilt.is_some() {
             return refuse("a tilted frame within another one; the first must be ended");
         }
         if self.modes.frame.tip_control {
@@ -78,7 +78,7 @@ impl State<'_> {
         if self.modes.compensation.side != Compensation::Off {
             return refuse("a tilted frame begins under cutter compensation");
         }
-        if self.cycle.is_some() {
+        if self.cycle.active.is_some() {
             return refuse("a tilted frame begins while a cycle is in force");
         }
         self.counts_in(Some(tilt));
@@ -95,21 +95,21 @@ impl State<'_> {
                 *stands = along;
             }
         }
-        self.aligned = true;
+        self.head.aligned = true;
         Ok(())
     }
 
     /// The rotary axes must stand along Z of the frame, and stay as they are.
     pub(super) fn check_along(&mut self) -> Result<(), Fault> {
         self.stands_along()?;
-        self.aligned = true;
+        self.head.aligned = true;
         Ok(())
     }
 
     /// Positions of the rotary axes, near where they stand, that bring the tool along Z
     /// of the frame.
     fn stands_along(&self) -> Result<[f64; 2], Fault> {
-        let Some(tilt) = self.tilt else {
+        let Some(tilt) = self.head.tilt else {
             return Err(Fault::new(NcCode::NoMeaning, "no tilted frame is in force"));
         };
         let forward = &self.dialect.forward;
@@ -133,7 +133,7 @@ impl State<'_> {
 
     /// Gives a tilted frame up.
     pub(super) fn end_tilt(&mut self) {
-        if self.tilt.is_some() {
+        if self.head.tilt.is_some() {
             self.counts_in(None);
         }
         self.modes.frame.tilted = false;
@@ -145,24 +145,24 @@ impl State<'_> {
         let stands = Position {
             linear: [x, y, z],
             rotary: [first, second],
-            tip_control: std::mem::take(&mut self.was_tip),
-            tilt: self.tilt,
+            tip_control: std::mem::take(&mut self.since.was_tip),
+            tilt: self.head.tilt,
             ..Position::default()
         };
         let there = Position { tilt, ..Position::default() };
         let linear = self.dialect.forward.restated(&stands, &there).linear;
         self.at[..3].copy_from_slice(&linear);
         self.known[..3].fill(false);
-        self.tilt = tilt;
+        self.head.tilt = tilt;
     }
 
     /// Refuses a motion while the tool does not lie along the frame in force, and one that
     /// would turn it away.
     pub(super) fn check_tilted_motion(&self, turns: bool) -> Result<(), Fault> {
-        if self.tilt.is_none() {
+        if self.head.tilt.is_none() {
             return Ok(());
         }
-        if !self.aligned {
+        if !self.head.aligned {
             let message = "a motion in a tilted frame before the tool is turned along its Z";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }
@@ -174,7 +174,7 @@ impl State<'_> {
 
     /// Refuses what would move a tilted frame that is in force.
     pub(super) fn check_tilt(&self, words: &Words) -> Result<(), Fault> {
-        if self.tilt.is_none() {
+        if self.head.tilt.is_none() {
             return Ok(());
         }
         for (function, range) in words.functions() {

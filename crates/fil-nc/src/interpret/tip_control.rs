@@ -38,7 +38,7 @@ impl State<'_> {
         if compensates && !gives_up(Function::Compensation(Compensation::Off)) {
             return refuse(words, "tool-tip control begins under cutter compensation");
         }
-        if self.cycle.is_some() && !gives_up(Function::CycleOff) {
+        if self.cycle.active.is_some() && !gives_up(Function::CycleOff) {
             return refuse(words, "tool-tip control begins while a cycle is in force");
         }
         if !self.dialect.has(Habit::TipControlAnywhere) {
@@ -136,7 +136,7 @@ impl State<'_> {
         if self.modes.compensation.side != Compensation::Off {
             return refuse("tool-tip control begins under cutter compensation");
         }
-        if self.tilt.is_some() {
+        if self.head.tilt.is_some() {
             return refuse("tool-tip control begins in a tilted plane");
         }
         for axis in self.dialect.tables() {
@@ -170,16 +170,16 @@ impl State<'_> {
         self.modes.length.offset = Some(offset.ok_or_else(missing)?);
         self.modes.frame.tip_control = true;
         self.modes.frame.tip_control_line = self.line;
-        self.by_direction = by_direction;
+        self.head.by_direction = by_direction;
         self.lose_tip();
         Ok(())
     }
 
     /// Gives tool-tip control up.
     pub(super) fn end_tip_control(&mut self) {
-        self.by_direction = false;
+        self.head.by_direction = false;
         if std::mem::take(&mut self.modes.frame.tip_control) {
-            self.was_tip = true;
+            self.since.was_tip = true;
             self.lose_tip();
         }
     }

@@ -9,7 +9,7 @@ use super::lines::RAPID_PARTS;
 use super::report::FindingKind;
 use super::say::short;
 use super::settings::Settings;
-use super::walk::{STILL, Walk};
+use super::walk::{Fact, STILL, Walk};
 use crate::dialect::Habit;
 use crate::motion::{Course, Event, Move, Position};
 
@@ -35,10 +35,11 @@ impl<C: Steps> Walk<'_, C> {
         if found.to_machine[2] && self.settings.dialect.has(Habit::PositionsEndLengths) {
             self.expected.length_is_taken_off();
         }
-        self.is_away = match found.course {
+        let is = match found.course {
             Course::Machine => true,
-            _ => self.is_away && self.only_turns(found),
+            _ => self.facts.has(Fact::Away) && self.only_turns(found),
         };
+        self.facts.set(Fact::Away, is);
     }
 
     /// How high the tool stands in the machine behind a motion, and how it came there.
@@ -46,7 +47,7 @@ impl<C: Steps> Walk<'_, C> {
         if self.only_turns(found) {
             return;
         }
-        self.is_in_cut = cuts && !found.in_cycle;
+        self.facts.set(Fact::InCut, cuts && !found.in_cycle);
         let counts_in_machine = !found.to.names_tip();
         let is_known = match counts_in_machine {
             true => found.known[2],
@@ -59,7 +60,7 @@ impl<C: Steps> Walk<'_, C> {
     /// A way up to the level of the settings in the frame of the machine, behind which the machine
     /// turns for another tilted frame.
     pub(super) fn goes_up_for_frame(&self, found: &Move) -> bool {
-        let level = self.settings.retract_level(self.metric);
+        let level = self.settings.retract_level(self.limits.metric);
         let is_at = |level: f64| (found.to.linear[2] - level).abs() <= self.slack.linear[2];
         let is_up = found.to_machine == [false, false, true, false, false]
             && self.settings.names_machine_positions()
@@ -86,7 +87,7 @@ impl<C: Steps> Walk<'_, C> {
             let at = self.at_as(&found).linear;
             let moves = |n: usize| found.known[n] && (found.to.linear[n] - at[n]).abs() > STILL;
             let rises = !(0..2).any(moves)
-                && self.settings.retract_level(self.metric).is_some_and(|level| {
+                && self.settings.retract_level(self.limits.metric).is_some_and(|level| {
                     (found.to.linear[2] - level).abs() <= self.slack.linear[2]
                 });
             if !before || !(turns || rises) {
@@ -98,23 +99,23 @@ impl<C: Steps> Walk<'_, C> {
             self.next += 1;
         }
         // The level before the cycle is that of another frame.
-        self.initial = None;
+        self.memory.initial = None;
     }
 
     /// A turn of the machine for a tilted frame, or out of one, where the tool is not away from
     /// the part.
     pub(super) fn check_turn_is_away(&mut self, cl_line: u32, found: &Move) {
         let frames = self.settings.turns_for_frames() && !found.to.names_tip();
-        let changed = found.modes.tool != self.moved_tool;
-        if !frames || self.is_away || changed || !self.only_turns(found) {
+        let changed = found.modes.tool != self.moved.modes.tool;
+        if !frames || self.facts.has(Fact::Away) || changed || !self.only_turns(found) {
             return;
         }
-        let Some(level) = self.settings.retract_level(self.metric) else { return };
+        let Some(level) = self.settings.retract_level(self.limits.metric) else { return };
         let slack = self.slack.linear[2];
         // How high a Z of the part lies in the machine nobody knows.
         let of_machine = self.settings.names_machine_positions();
         let is_above = self.height.is_some_and(|stands| stands >= level - slack);
-        if !self.is_in_cut && is_above && !of_machine {
+        if !self.facts.has(Fact::InCut) && is_above && !of_machine {
             return;
         }
         let place = match self.height {

@@ -134,10 +134,10 @@ impl<C: Steps> Walk<'_, C> {
         };
         self.report
             .leave_open(Unverified { cl_line: Some(cl_line), what: format!("{what}: {open}") });
-        if self.user_lines[1] != u32::MAX {
+        if self.user.lines[1] != u32::MAX {
             self.pass_own();
             let next = self.nc.line(self.next).unwrap_or(u32::MAX - 1);
-            self.user_lines = [self.last_line(), next];
+            self.user.lines = [self.last_line(), next];
         }
         let is_over = matches!(effect, Effect::Path | Effect::Doubtful(_));
         if is_over || effect == Effect::AnyWords {

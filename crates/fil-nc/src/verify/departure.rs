@@ -3,7 +3,7 @@
 use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::Walk;
+use super::walk::{Fact, Walk};
 use crate::motion::Move;
 
 /// What a last digit may add to a move, mm.
@@ -12,9 +12,9 @@ const DIGITS: f64 = 0.01;
 impl<C: Steps> Walk<'_, C> {
     /// A block whose start and end are known goes no farther than the machine says.
     pub(super) fn check_departure(&mut self, cl_line: u32, found: &Move) {
-        let Some(most) = self.settings.most_departure(self.metric) else { return };
+        let Some(most) = self.settings.most_departure(self.limits.metric) else { return };
         // Where the axes stand behind a tool change is the machine's.
-        if self.tool_is_fresh {
+        if self.facts.has(Fact::FreshTool) {
             return;
         }
         let in_machine_frame = found.to_machine.iter().any(|is| *is);

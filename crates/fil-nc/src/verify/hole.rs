@@ -51,7 +51,7 @@ impl<C: Steps> Walk<'_, C> {
             self.exact = exact;
         }
         // The next hole may round the level over this one to its other last digit.
-        self.rapid_end = rest.map(|rest| {
+        self.memory.rapid_end = rest.map(|rest| {
             let tip = hole.start.tip + hole.start.axis * (rest - levels.at[2]);
             Pose { tip, ..hole.start }
         });
@@ -143,7 +143,7 @@ impl<C: Steps> Walk<'_, C> {
             None => self.hole_frame(self.rotary_over(plunge, hole), hole),
         };
         let above = |by: f64| frame.linear(hole.start.tip + hole.start.axis * by);
-        let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.metric));
+        let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.limits.metric));
         let level = |by: f64| self.slack.before_scale(2, above(by)[2]);
         let [clear, bottom] = [level(clear), level(-hole.depth)];
         Levels { at: above(0.0), clear, bottom, single: false }
@@ -206,7 +206,8 @@ impl<C: Steps> Walk<'_, C> {
         let step = hole.step.filter(|_| in_cycle);
         let side = hole.start.axis.z.abs() < 0.5 && self.settings.is_mill_turn();
         let of_diameter = side && self.settings.side_pecks_are_diameters();
-        let step = step.map(|step| self.settings.peck_on_tape(step, self.metric, of_diameter));
+        let step =
+            step.map(|step| self.settings.peck_on_tape(step, self.limits.metric, of_diameter));
         let pecks = Hole { step: step.or(hole.step), ..*hole };
         depths(&pecks, first, levels.bottom)
     }
@@ -237,29 +238,33 @@ impl<C: Steps> Walk<'_, C> {
                 levels.clear.max(self.slack.before_scale(2, levels.at[2] + above))
             }
             // Back to where the first of several cycles began.
-            Some(_) => self.initial.map_or(levels.clear, |initial| initial.max(levels.clear)),
+            Some(_) => {
+                self.memory.initial.map_or(levels.clear, |initial| initial.max(levels.clear))
+            }
             None => levels.clear,
         };
         let known = self.known[2];
-        if known && self.initial.is_none() {
-            self.initial = Some(self.at.linear[2]);
+        if known && self.memory.initial.is_none() {
+            self.memory.initial = Some(self.at.linear[2]);
         }
         let mut raise = known && self.at.linear[2] < raised - slack[2];
         // A cycle of the control returns to where it began, which another cycle has left low.
         let of_control = if raise { raised } else { self.at.linear[2] };
         let of_control = if known { of_control } else { f64::INFINITY };
         if raise && !levels.single {
-            self.initial = Some(self.initial.map_or(raised, |initial| initial.max(raised)));
+            self.memory.initial =
+                Some(self.memory.initial.map_or(raised, |initial| initial.max(raised)));
         }
         while let Some(found) = self.next_move().filter(|found| found.course == Course::Rapid) {
             let to = found.to.linear;
             // Where X stands behind polar interpolation is not known.
             let at = self.at_as(&found).linear;
             let way = |n: usize| (to[n] - at[n]).abs();
-            let moves = |n: usize| self.written[n] && found.known[n] && way(n) > STILL;
+            let moves = |n: usize| self.limits.written[n] && found.known[n] && way(n) > STILL;
             // Y of a lathe without one stands at 0; said of a tool along X it is the turn of C.
-            let is_place_known = (0..2).all(|n| self.known[n] || !self.written[n]);
-            let turns = self.from_hole.is_some() && !self.written[1] && way(1) > STILL;
+            let is_place_known = (0..2).all(|n| self.known[n] || !self.limits.written[n]);
+            let turns =
+                self.memory.from_hole.is_some() && !self.limits.written[1] && way(1) > STILL;
             let across = (moves(0) || moves(1) || turns) && is_place_known;
             let z_moves = way(2) > STILL;
             let there = |n: usize| near(to[n], levels.at[n], n);
@@ -270,7 +275,7 @@ impl<C: Steps> Walk<'_, C> {
                 let is_there = |n: usize| (to[n] - levels.at[n]).abs() <= digits[n];
                 (0..2).all(|n| is_there(n) || !moves(n))
             };
-            let goes_there = arrives || self.from_hole.is_some_and(by_axes);
+            let goes_there = arrives || self.memory.from_hole.is_some_and(by_axes);
             if across && !goes_there {
                 return Err((
                     found.line,
@@ -294,7 +299,7 @@ impl<C: Steps> Walk<'_, C> {
             raise &= !near(to[2], raised, 2);
             // Z counts from another zero than before the cycle.
             if !self.known[2] && near(to[2], raised, 2) {
-                self.initial = Some(raised);
+                self.memory.initial = Some(raised);
             }
             self.take(cl_line, &found);
             self.next += 1;
@@ -309,7 +314,7 @@ impl<C: Steps> Walk<'_, C> {
             let line = self.next_move().map_or(0, |found| found.line);
             return Err((line, self.spell_level("the R level", self.at.linear[2], levels.clear)));
         }
-        let initial = self.initial.unwrap_or(levels.clear);
+        let initial = self.memory.initial.unwrap_or(levels.clear);
         Ok(match hole.retract {
             None => levels.clear,
             Some(above) if levels.single && above > 0.0 => raised,

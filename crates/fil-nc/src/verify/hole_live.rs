@@ -42,7 +42,7 @@ impl<C: Steps> Walk<'_, C> {
         let live = self.live_hole(hole, levels, plunge);
         let frame = self.settings.forward.frame(live.rotary);
         let turn = frame.turn.transpose() * self.hole_frame(live.rotary, hole).turn;
-        self.from_hole = Some(FromHole { turn, slack: self.slack.linear });
+        self.memory.from_hole = Some(FromHole { turn, slack: self.slack.linear });
         self.at = self.said_live(&self.at, &live, levels);
         let first = self.next;
         let (mut events, mut said) = (Vec::new(), Vec::new());
@@ -78,7 +78,7 @@ impl<C: Steps> Walk<'_, C> {
             sign: up.signum(),
             reach: libm::hypot(hole.start.tip.x, hole.start.tip.y),
         };
-        let before = self.initial.map(|level| level - levels.at[2]);
+        let before = self.memory.initial.map(|level| level - levels.at[2]);
         Live { before: before.unwrap_or(self.at.linear[0] - start[0]), ..live }
     }
 
@@ -91,7 +91,7 @@ impl<C: Steps> Walk<'_, C> {
         let half_digit = slack.rotary[0].to_radians();
         let is_turned = turned.abs() > half_digit + REACHED;
         // Without Y the tool stands beside the hole by what C is rounded by.
-        let of_c = if self.written[1] { 0.0 } else { half_digit * live.reach };
+        let of_c = if self.limits.written[1] { 0.0 } else { half_digit * live.reach };
         let is_beside = is_turned || beside.abs() > slack.linear[1] + of_c + DUST;
         let is_along = along.abs() > slack.linear[2] + DUST;
         let near = |asked: &&f64| (**asked - height).abs() <= slack.linear[0] + DUST;

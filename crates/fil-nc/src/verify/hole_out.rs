@@ -69,7 +69,8 @@ impl<C: Steps> Walk<'_, C> {
     /// The cycle has ended: where the machine asks for it, the tool goes back to the level
     /// before it.
     pub(super) fn end_cycle(&mut self, cl_line: u32) {
-        let Some(level) = self.initial.take().filter(|_| self.settings.retracts_after_cycles())
+        let Some(level) =
+            self.memory.initial.take().filter(|_| self.settings.retracts_after_cycles())
         else {
             return;
         };

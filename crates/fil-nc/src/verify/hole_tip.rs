@@ -207,7 +207,7 @@ impl<C: Steps> Walk<'_, C> {
                 // A cycle that begins there comes back to it.
                 let start = self.hole_frame(rotary, hole).linear(hole.start.tip)[2];
                 let level = self.slack.before_scale(2, start + level);
-                self.initial = self.initial.map(|initial| initial.max(level));
+                self.memory.initial = self.memory.initial.map(|initial| initial.max(level));
             }
             self.take(cl_line, &found);
             self.next += 1;
@@ -219,7 +219,7 @@ impl<C: Steps> Walk<'_, C> {
     fn check_way_up(&mut self, cl_line: u32, hole: &Hole, found: &Move) -> f64 {
         let tip = self.settings.forward.pose(&found.to).tip;
         let height = (tip - hole.start.tip).dot(&hole.start.axis);
-        let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.metric));
+        let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.limits.metric));
         let level = match hole.retract {
             None => clear,
             Some(above) if above > 0.0 => above.max(clear),
@@ -361,7 +361,7 @@ impl<C: Steps> Walk<'_, C> {
         let here = Line { start: tip, slack: twice, heights: Vec::new(), ..line };
         let rests = self.at.linear[2];
         // Without RETURN the tool goes across where the hole before has left it.
-        let initial = self.initial.filter(|_| hole.retract.is_some()).unwrap_or(rests);
+        let initial = self.memory.initial.filter(|_| hole.retract.is_some()).unwrap_or(rests);
         let is_rounded = known && (rests - initial).abs() <= line.digits() + DUST;
         let rests = if is_rounded { initial } else { rests };
         self.at.linear[2] = rests;
@@ -373,7 +373,7 @@ impl<C: Steps> Walk<'_, C> {
         let rotary = self.gap(&next.to, &hole.start).rotary;
         let machine = self.settings.forward.frame(rotary);
         let from_hole = machine.turn.transpose() * self.hole_frame(rotary, hole).turn;
-        self.from_hole = Some(FromHole { turn: from_hole, slack: self.slack.linear });
+        self.memory.from_hole = Some(FromHole { turn: from_hole, slack: self.slack.linear });
         let first = self.next;
         let (mut events, mut said) = (Vec::new(), Vec::new());
         for event in self.nc.from(first).take(MOST + 4 * line.heights.len()) {
@@ -429,7 +429,7 @@ impl<C: Steps> Walk<'_, C> {
     /// Says the motions again as they stand in the program.
     pub(super) fn say_again(&mut self, kept: Option<Kept>) {
         let Some(kept) = kept else { return };
-        self.from_hole = None;
+        self.memory.from_hole = None;
         self.slack.linear = kept.slack;
         let end = kept.first + kept.events.len();
         self.nc.replace(kept.first, &kept.events);

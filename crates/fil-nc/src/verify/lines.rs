@@ -7,7 +7,7 @@ use super::between::Asked;
 use super::rapid_lean::{Leg, Lie, UPRIGHT};
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::{STILL, Walk};
+use super::walk::{Fact, STILL, Walk};
 use super::zones;
 use fil_machine::locations::LinearMethod;
 
@@ -35,8 +35,8 @@ impl<C: Steps> Walk<'_, C> {
         let Some(Event::Move(end)) = self.nc.get(last) else { return false };
         let linear = self.settings.forward.frame_of(&end.to).linear(pose.tip);
         let exact = Position { linear, ..end.to };
-        let leg = if self.tool_is_fresh { Leg::FromAfar } else { Leg::OfPath };
-        self.rapid_to = Some(*pose);
+        let leg = if self.facts.has(Fact::FreshTool) { Leg::FromAfar } else { Leg::OfPath };
+        self.memory.rapid_to = Some(*pose);
         let begin = self.at;
         for index in self.next..=last {
             if let Some(Event::Move(part)) = self.nc.get(index) {
@@ -52,13 +52,13 @@ impl<C: Steps> Walk<'_, C> {
                 self.take(cl_line, &part);
             }
         }
-        self.rapid_to = None;
+        self.memory.rapid_to = None;
         self.measure(&end, pose);
         self.next = last + 1;
         if self.expected.mills_without_y(self.settings) {
             self.pass_begin_of_polar(cl_line, pose);
         }
-        self.rapid_end = Some(*pose);
+        self.memory.rapid_end = Some(*pose);
         true
     }
 
@@ -78,13 +78,13 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The feed that the machine makes a rapid at which is too short for one.
     fn feed_of_short_rapid(&self, pose: &Pose) -> Option<f64> {
-        let (short, feed) = self.settings.short_rapid(self.metric)?;
+        let (short, feed) = self.settings.short_rapid(self.limits.metric)?;
         let length = (pose.tip - self.begins().tip).norm();
         let slack = 2.0 * self.slack.linear[0];
         let at_feed = self.next_move().is_some_and(|found| found.course == Course::Feed);
         // Behind a tool change no way is known to be short.
-        let is_short =
-            length < short - slack && !self.tool_is_fresh || (length < short + slack && at_feed);
+        let is_short = length < short - slack && !self.facts.has(Fact::FreshTool)
+            || (length < short + slack && at_feed);
         (is_short && self.is_known(&self.known)).then_some(feed)
     }
 
@@ -161,6 +161,7 @@ impl<C: Steps> Walk<'_, C> {
         let stays = || found.to.rotary == self.at.rotary && found.known == self.known;
         rapid
             && self
+                .memory
                 .rapid_end
                 .is_some_and(|pose| self.reaches(found, &pose) || (a_digit() && stays()))
     }
@@ -187,11 +188,11 @@ impl<C: Steps> Walk<'_, C> {
             return Vec::new();
         }
         let lie = match self.lie(part, end, leg) {
-            Lie::Leaning if self.splits_rapids && self.leads_along_tool(part, end, leg) => {
+            Lie::Leaning if self.limits.splits_rapids && self.leads_along_tool(part, end, leg) => {
                 return Vec::new();
             }
             Lie::Leaning => match self.lies_nearly_along(end) {
-                None if self.splits_rapids => {
+                None if self.limits.splits_rapids => {
                     return vec!["rapid does not go along the tool, which leans".to_string()];
                 }
                 nearly => nearly.unwrap_or(Lie::Leaning),
@@ -217,7 +218,7 @@ impl<C: Steps> Walk<'_, C> {
         };
         let mut wrong = Vec::new();
         let others = [0, 1, 2].into_iter().filter(move |n| *n != tool);
-        let splits = self.splits_rapids;
+        let splits = self.limits.splits_rapids;
         let forward = &self.settings.forward;
         let end_turns = end.rotary;
         // Each part as its own X, Y, Z are meant.
@@ -249,10 +250,10 @@ impl<C: Steps> Walk<'_, C> {
         }
         let letter = ["X", "Y", "Z"][tool];
         let across_it = ["Y and Z", "X and Z", "X and Y"][tool];
-        let is_mill = self.written == [true; 3];
+        let is_mill = self.limits.written == [true; 3];
         let comes_later = is_mill && others.clone().any(|n| !part.known[n] || !arrived(n));
         // Over where the tool last worked a way up hits nothing, behind a tool change too.
-        let goes_down = tool != 2 || !self.has_had_height || rise <= 0.0;
+        let goes_down = tool != 2 || !self.facts.has(Fact::HadHeight) || rise <= 0.0;
         let finds_height = found_out(tool) && !is_level && goes_down;
         if splits && finds_height && comes_later {
             wrong.push(format!("rapid goes to its height before {across_it} have arrived"));
@@ -270,7 +271,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         let lower = moved(tool) && rise < 0.0;
         // Behind the way up at the end of tool-tip control the level of GOHOME is a safe one.
-        let goes_home = self.is_up && tool == 2 && self.is_home_level(to[2]);
+        let goes_home = self.facts.has(Fact::Up) && tool == 2 && self.is_home_level(to[2]);
         if lower && !others.clone().all(arrived) && !goes_home {
             wrong.push(format!("rapid plunges before {across_it} have arrived"));
         } else if lower && turns && !part.to.names_tip() {
@@ -278,7 +279,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         let across = others.clone().any(moved) && !moved(tool);
         // A tool change has brought Z up, and the level of the end is that of another turn.
-        let is_clear = turns && self.tool_is_fresh;
+        let is_clear = turns && self.facts.has(Fact::FreshTool);
         if across && (end.linear[tool] - at[tool]) * up > STILL && !is_clear {
             wrong.push(format!("rapid goes across before {letter} has gone up"));
         }
@@ -315,13 +316,13 @@ impl<C: Steps> Walk<'_, C> {
 
     /// A position of Z is that of the machine's home.
     fn is_home_level(&self, z: f64) -> bool {
-        let [.., level] = self.settings.home(self.metric);
+        let [.., level] = self.settings.home(self.limits.metric);
         level.is_some_and(|level| (z - level).abs() <= self.slack.linear[2])
     }
 
     /// A position of Z is the level that the machine goes up to.
     pub(super) fn is_retract_level(&self, z: f64) -> bool {
-        let level = self.settings.retract_level(self.metric);
+        let level = self.settings.retract_level(self.limits.metric);
         level.is_some_and(|level| (z - level).abs() <= self.slack.linear[2])
     }
 
@@ -372,10 +373,10 @@ impl<C: Steps> Walk<'_, C> {
         self.check_departure(cl_line, found);
         self.check_square_to_compensation(cl_line, found);
         let axes = self.settings.forward.restated(&found.to, &Position::default()).linear;
-        let axes = match self.from_hole {
+        let axes = match self.memory.from_hole {
             Some(hole) => {
                 let [x, y, z]: [f64; 3] = (hole.turn * Vector3::from(axes)).into();
-                [x, if self.written[1] { y } else { 0.0 }, z]
+                [x, if self.limits.written[1] { y } else { 0.0 }, z]
             }
             // In the plane of X and C the slide stands at the distance from the axis.
             None if self.expected.mills_without_y(self.settings) => {
@@ -385,10 +386,10 @@ impl<C: Steps> Walk<'_, C> {
         };
         // Where an axis stands before a word has said it nobody knows.
         let says = |n: usize| found.known[n] || found.to_machine[n];
-        let all = found.to.names_tip() || self.from_hole.is_some();
-        let is_straight = found.arc.is_none() && !found.in_cycle && self.from_hole.is_none();
+        let all = found.to.names_tip() || self.memory.from_hole.is_some();
+        let is_straight = found.arc.is_none() && !found.in_cycle && self.memory.from_hole.is_none();
         let may_leave = if is_straight { self.settings.leaves_travel() } else { [false; 3] };
-        for (n, (min, max)) in self.travel.into_iter().enumerate() {
+        for (n, (min, max)) in self.limits.travel.into_iter().enumerate() {
             let value = axes[n];
             let is_said = if all { (0..3).all(says) } else { says(n) };
             if !is_said || may_leave[n] {

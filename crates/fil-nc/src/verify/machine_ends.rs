@@ -5,7 +5,7 @@ use super::lines::{AROUND, RAPID_PARTS};
 use super::rapid_lean::Leg;
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::{STILL, Walk};
+use super::walk::{Fact, STILL, Walk};
 use super::wanted::{Step, TableWay, Wanted};
 use crate::motion::{Course, Event, Move, Position};
 
@@ -13,7 +13,7 @@ impl<C: Steps> Walk<'_, C> {
     /// A rapid to a position of the linear axes, mm; the others stay, and the rotary axes.
     pub(super) fn go_to_machine(&mut self, cl_line: u32, to: [Option<f64>; 3]) {
         self.report.compared += 1;
-        self.initial = None;
+        self.memory.initial = None;
         if self.settings.names_machine_positions() {
             let [x, y, z] = to;
             if self.go_in_machine_frame(cl_line, [x, y, z, None, None]) {
@@ -31,7 +31,7 @@ impl<C: Steps> Walk<'_, C> {
             return self.find(FindingKind::Missing, Some(cl_line), None, message);
         };
         let last = self.next + count;
-        if let Some(raised) = raised.filter(|_| !self.is_up) {
+        if let Some(raised) = raised.filter(|_| !self.facts.has(Fact::Up)) {
             self.check_way_up_along_head(cl_line, count, &raised);
         }
         let end = last.checked_sub(1).and_then(|at| self.nc.get(at));
@@ -51,7 +51,7 @@ impl<C: Steps> Walk<'_, C> {
             self.next += 1;
         }
         self.report.matched += 1;
-        self.is_away = true;
+        self.facts.set(Fact::Away, true);
         self.settle(cl_line);
         self.watch.stand(None);
     }
@@ -76,7 +76,7 @@ impl<C: Steps> Walk<'_, C> {
                 0..3 => self.slack.linear[n],
                 _ => self.slack.rotary[n - 3],
             };
-            let is_axis = |n: usize| n > 2 || self.written[n];
+            let is_axis = |n: usize| n > 2 || self.limits.written[n];
             // Behind the end of a frame the axes stand where the tool stood in it. An axis that is
             // named goes to a place of the machine, which says nothing of where it stood.
             let stands = self.out_of_polar(&found).unwrap_or_else(|| self.at_as(&found));
@@ -104,7 +104,7 @@ impl<C: Steps> Walk<'_, C> {
                 return false;
             }
         }
-        self.is_away = true;
+        self.facts.set(Fact::Away, true);
         self.watch.stand(None);
         true
     }
@@ -137,7 +137,7 @@ impl<C: Steps> Walk<'_, C> {
     /// Where a way up to a level of Z must bring a head that leans; `None` for a tool along Z, where
     /// it stands nobody knows, and behind a tool change, which has brought it away.
     pub(super) fn raised_from_here(&self, level: Option<f64>) -> Option<Position> {
-        if self.tool_is_fresh {
+        if self.facts.has(Fact::FreshTool) {
             return None;
         }
         let stands = self.settings.forward.restated(&self.at, &Position::default());
@@ -203,19 +203,19 @@ impl<C: Steps> Walk<'_, C> {
 
     /// RETRCT: up to the level of the settings, never down.
     pub(super) fn retract(&mut self, cl_line: u32) {
-        let Some(level) = self.settings.retract_level(self.metric) else { return };
+        let Some(level) = self.settings.retract_level(self.limits.metric) else { return };
         let stands = self.settings.forward.restated(&self.at, &Position::default()).linear[2];
         let is_above = self.known[2] && stands >= level;
         if !is_above || self.settings.names_machine_positions() {
             self.go_to_machine(cl_line, [None, None, Some(level)]);
         }
-        self.is_away |= is_above;
+        self.facts.add_if(Fact::Away, is_above);
     }
 
     /// A rotary axis turns by itself to a position, at rapid.
     pub(super) fn turn(&mut self, cl_line: u32, index: usize, angle: f64, way: TableWay) {
         self.report.compared += 1;
-        self.initial = None;
+        self.memory.initial = None;
         // A turn to where the axis stands is no motion that is passed over.
         self.pass_own();
         let slack = self.slack.rotary[index];
@@ -285,7 +285,8 @@ impl<C: Steps> Walk<'_, C> {
             Event::Move(next) => Some(next.to.names_tip()),
             _ => None,
         });
-        (self.is_away || found.modes.tool != self.moved_tool) && behind == Some(true)
+        (self.facts.has(Fact::Away) || found.modes.tool != self.moved.modes.tool)
+            && behind == Some(true)
     }
 
     /// Takes a turn of the machine, in which nothing moves that the length of the tool acts on.
@@ -306,11 +307,11 @@ impl<C: Steps> Walk<'_, C> {
 
     /// An arc as the settings of the machine correct it; `None` where they leave it.
     pub(super) fn corrected(&mut self, step: &Step) -> Option<Step> {
-        let before = self.corrected_end.take();
+        let before = self.memory.corrected_end.take();
         let Wanted::Arc(arc, rate) = &step.what else { return None };
         let mut corrected = arc.from(before.filter(|[end, _]| *end == arc.start).map(|[_, at]| at));
-        corrected.end.tip = self.settings.arc_end(&corrected, self.metric);
-        self.corrected_end = Some([arc.end.tip, corrected.end.tip]);
+        corrected.end.tip = self.settings.arc_end(&corrected, self.limits.metric);
+        self.memory.corrected_end = Some([arc.end.tip, corrected.end.tip]);
         (corrected != **arc)
             .then(|| Step { what: Wanted::Arc(corrected.into(), *rate), ..step.clone() })
     }

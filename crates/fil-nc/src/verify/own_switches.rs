@@ -23,6 +23,8 @@ const EVENTS_BEFORE_CHANGE: usize = LOOK_AHEAD * RAPID_PARTS;
 /// What the machine's own blocks are to switch.
 #[derive(Debug, Default)]
 pub(super) struct OwnSwitches {
+    /// Tool changes so far.
+    pub(super) changes: usize,
     /// Blocks that may be skipped are left out.
     leaves_out: bool,
     /// The blocks before the tool change at hand that are not taken up yet.
@@ -101,7 +103,7 @@ impl<C: Steps> Walk<'_, C> {
     /// Takes up the blocks at the start of the program; those that may be skipped are left out
     /// from here on, or not.
     pub(super) fn begin_with_blocks(&mut self, leaves_out: bool) {
-        self.switches.leaves_out = leaves_out;
+        self.blocks.leaves_out = leaves_out;
         self.take_blocks(&self.settings.start_blocks());
     }
 
@@ -110,7 +112,7 @@ impl<C: Steps> Walk<'_, C> {
         for block in blocks {
             let line = self.settings.dialect.text.marks.read(block.as_bytes());
             let is_skipped = line.trim_ascii_start().first() == Some(&SKIP);
-            if !(is_skipped && self.switches.leaves_out) {
+            if !(is_skipped && self.blocks.leaves_out) {
                 self.expected.take_block(&line, self.settings);
             }
         }
@@ -121,20 +123,21 @@ impl<C: Steps> Walk<'_, C> {
         let is_change = |event: &Event| matches!(event, Event::ToolChange { .. });
         let change = self.nc.from(self.next).take(EVENTS_BEFORE_CHANGE).find(is_change);
         let last = change.map_or(u32::MAX, |event| event.line());
-        self.switches.awaited = self.blocks_of_change(self.changes, 0, [self.line, last]);
+        self.blocks.awaited =
+            self.blocks_of_change(self.blocks.changes, 0, [self.moved.line, last]);
     }
 
     /// Takes up the blocks that are awaited where one of them stands before this line, that of
     /// the next motion.
     pub(super) fn take_awaited_blocks_before(&mut self, line: u32) {
-        let mut awaited = self.switches.awaited.iter();
-        if awaited.any(|block| self.own.stands_between(block, [self.line, line])) {
+        let mut awaited = self.blocks.awaited.iter();
+        if awaited.any(|block| self.own.stands_between(block, [self.moved.line, line])) {
             self.take_awaited_blocks();
         }
     }
 
     pub(super) fn take_awaited_blocks(&mut self) {
-        let blocks = std::mem::take(&mut self.switches.awaited);
+        let blocks = std::mem::take(&mut self.blocks.awaited);
         self.take_blocks(&blocks);
     }
 
@@ -142,7 +145,7 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn take_blocks_after_change(&mut self) {
         let next = self.nc.from(self.next).find(|event| !self.own.has(event.line()));
         let lines = [self.last_line(), next.map_or(u32::MAX, |event| event.line())];
-        let blocks = self.blocks_of_change(self.changes - 1, 1, lines);
+        let blocks = self.blocks_of_change(self.blocks.changes - 1, 1, lines);
         self.take_blocks(&blocks);
     }
 

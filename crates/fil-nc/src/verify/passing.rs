@@ -2,7 +2,7 @@
 
 use super::ahead::Steps;
 use super::report::FindingKind;
-use super::walk::{STILL, Walk};
+use super::walk::{Fact, STILL, Walk};
 use super::wanted::{Step, Wanted};
 use crate::motion::{Course, Event, Move};
 
@@ -62,9 +62,11 @@ impl<C: Steps> Walk<'_, C> {
                     self.goes_up(cl_line, &found);
                 }
                 Some(Event::Move(found)) if self.goes_up_at_tip_begin(&found) => {
-                    let is_away = self.is_away || self.is_retract_level(self.at.linear[2]);
+                    let is_away =
+                        self.facts.has(Fact::Away) || self.is_retract_level(self.at.linear[2]);
                     self.goes_up(cl_line, &found);
-                    (self.is_away, self.is_above) = (is_away, true);
+                    self.facts.set(Fact::Away, is_away);
+                    self.facts.set(Fact::Above, true);
                 }
                 Some(Event::Move(found)) if self.turns_away(&found) => {
                     self.take_turn_away(cl_line, &found);
@@ -85,14 +87,17 @@ impl<C: Steps> Walk<'_, C> {
     /// A motion in a work offset that no record before has asked for: it belongs to a step
     /// behind the record that does.
     fn is_of_a_later_offset(&self, found: &Move) -> bool {
-        found.modes.frame.fixture != self.moved_fixture
+        found.modes.frame.fixture != self.moved.modes.frame.fixture
             && self.expected.fixture.is_some_and(|asked| asked != found.modes.frame.fixture)
     }
 
     /// A record has asked for a work offset in which nothing has moved: where the axes stand in
     /// it nobody knows.
     pub(super) fn awaits_offset(&self) -> bool {
-        self.expected.fixture.flatten().is_some_and(|asked| self.moved_fixture != Some(asked))
+        self.expected
+            .fixture
+            .flatten()
+            .is_some_and(|asked| self.moved.modes.frame.fixture != Some(asked))
     }
 
     /// The CL file stays where the tool is, and the program goes to a point of the machine, for
@@ -115,7 +120,7 @@ impl<C: Steps> Walk<'_, C> {
                 Event::Move(found) => {
                     if found.to.linear[2] != self.at.linear[2] {
                         // Holes behind it return to where it has brought the tool.
-                        self.initial = None;
+                        self.memory.initial = None;
                     }
                     self.stand(&found);
                 }
@@ -133,12 +138,13 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn stand(&mut self, found: &Move) {
         self.leaves_or_comes(found);
         let stays = self.known[2] && found.to.linear[2] == self.at.linear[2];
-        self.height_is_fresh &= stays || !found.known[2];
+        self.facts.end_unless(Fact::FreshHeight, stays || !found.known[2]);
         self.at = found.to;
         self.known = found.known;
-        (self.moved_tool, self.moved_fixture) = (found.modes.tool, found.modes.frame.fixture);
-        self.moved_tip_line = found.modes.frame.tip_control_line;
-        self.rapid_end = None;
+        self.moved.modes.tool = found.modes.tool;
+        self.moved.modes.frame.fixture = found.modes.frame.fixture;
+        self.moved.modes.frame.tip_control_line = found.modes.frame.tip_control_line;
+        self.memory.rapid_end = None;
         self.next += 1;
     }
 
@@ -146,7 +152,7 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn is_still(&self, found: &Move) -> bool {
         let at = self.at_as(found);
         let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= STILL);
-        let found_out = (0..3).any(|n| self.written[n] && found.known[n] && !self.known[n]);
+        let found_out = (0..3).any(|n| self.limits.written[n] && found.known[n] && !self.known[n]);
         found.arc.is_none()
             && !found_out
             && same(&found.to.linear, &at.linear)

@@ -6,7 +6,7 @@ use fil_machine::axis_chain::Carries;
 
 use super::ahead::Steps;
 use super::report::FindingKind;
-use super::walk::{STILL, Walk};
+use super::walk::{Fact, STILL, Walk};
 use crate::motion::{Course, Move, Position};
 
 /// Directions are one where the cosine between them is less than this below 1.
@@ -55,7 +55,7 @@ impl<C: Steps> Walk<'_, C> {
         match self.axis_of_tool(end, PARALLEL) {
             Some((axis, up)) => Lie::Along { axis, up },
             // Up along the tool before tool-tip control has ended it is away.
-            None if leg == Leg::ToMachine && self.is_up => UPRIGHT,
+            None if leg == Leg::ToMachine && self.facts.has(Fact::Up) => UPRIGHT,
             None if leg == Leg::FromAfar || self.known[..3] != [true; 3] => UPRIGHT,
             None => Lie::Leaning,
         }
@@ -161,11 +161,11 @@ impl<C: Steps> Walk<'_, C> {
         let holds_axes = ![&self.at, from, end].iter().any(|at| at.names_tip());
         let is_known = self.is_known(&self.known) && !self.settings.is_mill_turn();
         let turns = self.at.rotary != end.rotary;
-        if !(self.is_in_cut && holds_axes && is_known && turns) {
+        if !(self.facts.has(Fact::InCut) && holds_axes && is_known && turns) {
             return None;
         }
         let forward = &self.settings.forward;
-        let tip = self.rapid_to.map_or(forward.pose(end).tip, |pose| pose.tip);
+        let tip = self.memory.rapid_to.map_or(forward.pose(end).tip, |pose| pose.tip);
         let way = tip - forward.pose(from).tip;
         Some(way.dot(&forward.axis(self.at.rotary)))
     }
@@ -227,7 +227,12 @@ impl<C: Steps> Walk<'_, C> {
         let rise = level.map_or(0.0, |level| level - stands.linear[2]);
         let is_known = self.known[..3] == [true; 3];
         let leans = tool.z < 1.0 - PARALLEL && tool.z >= LEAST_RISE;
-        if rise <= 0.0 || !leans || !is_known || self.is_up || self.settings.is_mill_turn() {
+        if rise <= 0.0
+            || !leans
+            || !is_known
+            || self.facts.has(Fact::Up)
+            || self.settings.is_mill_turn()
+        {
             return *stands;
         }
         let linear = Vector3::from(stands.linear) + tool * (rise / tool.z);

@@ -9,7 +9,7 @@ use super::ahead::Steps;
 use super::between::way::Way;
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::{STILL, Walk};
+use super::walk::{Fact, STILL, Walk};
 use crate::forward::Pose;
 use crate::motion::{Move, Position};
 
@@ -79,7 +79,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// A mill-turn machine whose Y is an axis of its own.
     fn has_axis_y(&self) -> bool {
-        self.settings.is_mill_turn() && self.written[1] && !self.at.transformed
+        self.settings.is_mill_turn() && self.limits.written[1] && !self.at.transformed
     }
 
     /// How X and Y stand from the axis of the spindle, mm.
@@ -98,7 +98,7 @@ impl<C: Steps> Walk<'_, C> {
         let corner = "rapid goes along X and Z in two blocks, the CL file has one line: the corner \
                       may lie in the part";
         let is_corner = goes_alone(0, 2) || goes_alone(2, 0);
-        (is_corner && !self.splits_rapids).then_some(corner)
+        (is_corner && !self.limits.splits_rapids).then_some(corner)
     }
 
     /// A live tool goes across at depth, or down beside its place.
@@ -140,7 +140,8 @@ impl<C: Steps> Walk<'_, C> {
     /// From the place of a tool change, or from where nobody knows, Z comes down while a rotary axis
     /// has yet to turn to where the height is meant.
     pub(super) fn comes_down_before_it_turns(&self, part: &Move, end: [f64; 2]) -> bool {
-        let comes_down = self.height_is_fresh || !(self.known[2] || self.has_had_height);
+        let comes_down = self.facts.has(Fact::FreshHeight)
+            || !(self.known[2] || self.facts.has(Fact::HadHeight));
         let rotaries = self.settings.forward.rotaries();
         let is_to_turn = |n: usize| {
             let is_there = (part.to.rotary[n] - end[n]).abs() <= SMALL_TURN;

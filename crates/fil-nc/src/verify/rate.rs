@@ -6,7 +6,7 @@ use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::{short, spell_rate};
 use super::settings::Quantity;
-use super::walk::Walk;
+use super::walk::{Fact, Walk};
 use super::wanted::Hole;
 use crate::dialect::{Amount, Family, Habit};
 use crate::motion::{Compensation, Course, Move, Position, Rate, Speed, unit};
@@ -34,7 +34,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         let wanted = match wanted {
             Some(Rate::PerMinute(rate)) => {
-                let rate = self.settings.feed_within(rate, self.metric);
+                let rate = self.settings.feed_within(rate, self.limits.metric);
                 let rate = self.at_the_edge(&from, found, rate);
                 Rate::PerMinute(self.within_axes(rate, &from, found))
             }
@@ -80,8 +80,8 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn rate_of_hole(&self, hole: &Hole) -> Option<Rate> {
         hole.rate.map(|rate| match rate {
             Rate::PerMinute(rate) => {
-                let rate = self.settings.feed_within(rate, self.metric);
-                Rate::PerMinute(self.settings.cycle_feed_within(rate, self.metric))
+                let rate = self.settings.feed_within(rate, self.limits.metric);
+                Rate::PerMinute(self.settings.cycle_feed_within(rate, self.limits.metric))
             }
             rate => rate,
         })
@@ -90,22 +90,24 @@ impl<C: Steps> Walk<'_, C> {
     /// A feed within the limits of Y and Z. From a place that nobody knows each axis may go
     /// alone, also while the machine turns.
     fn within_axes(&self, rate: f64, from: &Position, found: &Move) -> f64 {
-        let begins = (0..3).all(|n| self.known[n] || !self.written[n])
-            && !self.tool_is_fresh
-            && found.modes.frame.fixture == self.moved_fixture;
+        let begins = (0..3).all(|n| self.known[n] || !self.limits.written[n])
+            && !self.facts.has(Fact::FreshTool)
+            && found.modes.frame.fixture == self.moved.modes.frame.fixture;
         let turns = turned(from, found) != [0.0; 2] && !found.to.tip_control;
         if turns && begins {
             return rate;
         }
         let (from, found) = self.on_tape(from, found);
         let from = Some(&from).filter(|_| begins);
-        self.settings.feed_within_axes(rate, from, &found, self.metric)
+        self.settings.feed_within_axes(rate, from, &found, self.limits.metric)
     }
 
     /// A motion in directions of the program: in a hole along the tool, it is said in those of
     /// the hole.
     fn on_tape(&self, from: &Position, found: &Move) -> (Position, Move) {
-        let Some(to_axes) = self.from_hole.map(|hole| hole.turn) else { return (*from, *found) };
+        let Some(to_axes) = self.memory.from_hole.map(|hole| hole.turn) else {
+            return (*from, *found);
+        };
         // Under tool-tip control X, Y and Z are those of the part.
         let turn = match found.modes.frame.tip_control {
             true => self.settings.forward.frame(found.to.rotary).turn * to_axes,
@@ -121,7 +123,7 @@ impl<C: Steps> Walk<'_, C> {
     /// By what share rounding on the tape changes a feed that the ways of Y and Z limit.
     fn share_slack(&self, from: &Position, found: &Move) -> f64 {
         let (from, found) = self.on_tape(from, found);
-        let digits = self.from_hole.map_or(self.slack.linear, |hole| hole.slack);
+        let digits = self.memory.from_hole.map_or(self.slack.linear, |hole| hole.slack);
         let share = |axis: usize| {
             let way = (found.to.linear[axis] - from.linear[axis]).abs();
             if way > digits[axis] { 4.0 * digits[axis] / way } else { 0.0 }
@@ -132,8 +134,8 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The feed is the F that REPEAT writes.
     fn is_repeated(&self, rate: Rate) -> bool {
-        let (dialect, unit) = (&self.settings.dialect, unit(self.metric));
-        let Some(feed) = self.repeated_feed else { return false };
+        let (dialect, unit) = (&self.settings.dialect, unit(self.limits.metric));
+        let Some(feed) = self.user.repeated_feed else { return false };
         match rate {
             Rate::PerMinute(rate) => {
                 (rate - feed / dialect.factor(Amount::Feed) * unit).abs()
@@ -186,7 +188,7 @@ impl<C: Steps> Walk<'_, C> {
         if of_center <= 0.0 {
             return rate;
         }
-        self.settings.feed_within(rate * of_center / radius, self.metric)
+        self.settings.feed_within(rate * of_center / radius, self.limits.metric)
     }
 
     /// Inverse time: the motion takes `1 / inverse` minutes. Posts take the straight way
@@ -300,13 +302,13 @@ impl<C: Steps> Walk<'_, C> {
             _ => return false,
         };
         let Some(Rate::PerMinute(feed)) = found.rate else { return false };
-        let Some(counted) = self.settings.counted_way(&from, &found.to, self.metric) else {
+        let Some(counted) = self.settings.counted_way(&from, &found.to, self.limits.metric) else {
             return false;
         };
         self.lengths(from, found).into_iter().any(|way| {
             let time =
                 self.settings.turning_time(way / rate, turned, from.linear == found.to.linear);
-            let expected = self.settings.feed_within(counted / time, self.metric);
+            let expected = self.settings.feed_within(counted / time, self.limits.metric);
             (feed - expected).abs() <= self.slack.of(Quantity::Feed)
         })
     }

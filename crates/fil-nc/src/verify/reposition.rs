@@ -100,7 +100,7 @@ impl<C: Steps> Walk<'_, C> {
     /// Takes the blocks of a way out and back, with the part of the line before it; false
     /// when none comes before the end of the line.
     pub(super) fn repositions(&mut self, cl_line: u32, pose: &Pose, rate: Option<Rate>) -> bool {
-        let Some(how) = self.settings.reposition(self.metric) else { return false };
+        let Some(how) = self.settings.reposition(self.limits.metric) else { return false };
         if !self.is_known(&self.known) {
             return false;
         }
@@ -129,7 +129,7 @@ impl<C: Steps> Walk<'_, C> {
     /// Takes the blocks of a rapid motion that goes out before and comes back in behind it; false
     /// when it is none.
     pub(super) fn repositions_at_rapid(&mut self, cl_line: u32, pose: &Pose) -> bool {
-        let Some(how) = self.settings.reposition_at_rapid(self.metric) else { return false };
+        let Some(how) = self.settings.reposition_at_rapid(self.limits.metric) else { return false };
         if !self.is_known(&self.known) {
             return false;
         }
@@ -359,7 +359,7 @@ impl<C: Steps> Walk<'_, C> {
         let turns = (0..2).any(|n| (found.to.rotary[n] - self.at.rotary[n]).abs() > SMALL);
         let plunges = found.to.linear[2] < self.at.linear[2] - self.slack.linear[2];
         let is_along_axis = self.lie(found, &found.to, Leg::OfPath) != Lie::Leaning;
-        if turns && plunges && is_along_axis && !found.to.names_tip() && self.splits_rapids {
+        if turns && plunges && is_along_axis && !found.to.names_tip() && self.limits.splits_rapids {
             let z = short(found.to.linear[2]);
             let message = format!("rapid turns the machine and plunges to Z{z} in one block");
             self.find(FindingKind::Order, Some(cl_line), Some(found.line), message);

@@ -20,8 +20,8 @@ impl<C: Steps> Walk<'_, C> {
     /// Takes the events that cut a thread.
     pub(super) fn whole_thread(&mut self, cl_line: u32, thread: &WholeThread) {
         self.report.compared += 1;
-        self.initial = None;
-        self.thread_turns = None;
+        self.memory.initial = None;
+        self.memory.thread_turns = None;
         self.pass(cl_line);
         match self.cut(cl_line, thread) {
             Ok(()) => self.report.matched += 1,
@@ -57,7 +57,7 @@ impl<C: Steps> Walk<'_, C> {
             } else {
                 [self.slack.linear[2], self.slack.outside_transformations]
             },
-            step: if self.metric { 1e-3 } else { 1e-4 * INCH },
+            step: if self.limits.metric { 1e-3 } else { 1e-4 * INCH },
         };
         if gauge.length < 1e-6 {
             return Err((0, "the crest of the thread has no length".to_string()));

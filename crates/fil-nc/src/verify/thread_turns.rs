@@ -4,7 +4,7 @@
 
 use super::ahead::Steps;
 use super::report::FindingKind;
-use super::walk::Walk;
+use super::walk::{Fact, Walk};
 use crate::motion::{Course, Move, Speed, Spindle};
 
 /// Speed and direction of the spindle in a pass, and whether it is the second one.
@@ -14,9 +14,9 @@ impl<C: Steps> Walk<'_, C> {
     /// The next pass must turn the spindle as the first one of its thread did.
     pub(super) fn check_turns_of_pass(&mut self, cl_line: u32, pass: &Move) {
         let now = (pass.modes.spindle.speed, pass.modes.spindle.turn, pass.modes.master.is_side);
-        let first = *self.thread_turns.get_or_insert(now);
+        let first = *self.memory.thread_turns.get_or_insert(now);
         if first != now {
-            self.thread_turns = Some(now);
+            self.memory.thread_turns = Some(now);
             let message = "the spindle turns otherwise than in the passes of the thread before, \
                            which do not meet"
                 .to_string();
@@ -27,7 +27,7 @@ impl<C: Steps> Walk<'_, C> {
     /// A motion of a pass that goes on from another one must be of the next block. A pass of a
     /// cycle begins behind a rapid of its own.
     pub(super) fn check_joins(&mut self, cl_line: u32, pass: &Move) {
-        if self.is_in_groove && !pass.in_cycle && pass.line > self.line + 1 {
+        if self.facts.has(Fact::InGroove) && !pass.in_cycle && pass.line > self.moved.line + 1 {
             let message = "blocks stand between two motions of one pass, in which the tool waits \
                            in its groove while the part turns on"
                 .to_string();
@@ -37,6 +37,6 @@ impl<C: Steps> Walk<'_, C> {
 
     /// Follows whether the tool stands in a groove that it has cut.
     pub(super) fn follow_groove(&mut self, found: &Move) {
-        self.is_in_groove = found.course == Course::Thread && !found.in_cycle;
+        self.facts.set(Fact::InGroove, found.course == Course::Thread && !found.in_cycle);
     }
 }

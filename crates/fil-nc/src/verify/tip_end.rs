@@ -7,9 +7,9 @@ use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::short;
 use super::settings::Settings;
-use super::walk::{STILL, Walk};
+use super::walk::{Fact, STILL, Walk};
 use super::wanted::{Step, Wanted};
-use crate::motion::{Course, Event, FrameModes, Modes, Move, Position};
+use crate::motion::{Course, Event, Modes, Move, Position};
 
 impl Settings<'_> {
     /// How far the tool must go up before tool-tip control ends, mm; `None` for a control
@@ -56,8 +56,8 @@ impl<C: Steps> Walk<'_, C> {
         };
         // Away from the part a head that leans may go straight up in Z, too.
         let level = from.linear[2];
-        let is_away =
-            self.is_away || (!ends_frame && !self.is_in_cut && self.is_retract_level(level));
+        let is_away = self.facts.has(Fact::Away)
+            || (!ends_frame && !self.facts.has(Fact::InCut) && self.is_retract_level(level));
         let straight_up = found.course == Course::Rapid
             && !(to.tip_control || self.at.tip_control || found.in_cycle)
             && found.modes.length.offset.is_some()
@@ -94,8 +94,8 @@ impl<C: Steps> Walk<'_, C> {
     /// before, and the tool had not gone up.
     pub(super) fn check_tip_begin(&mut self, cl_line: u32) {
         let may_come_down = !self.at.tip_control
-            && !self.is_above
-            && !self.tool_is_fresh
+            && !self.facts.has(Fact::Above)
+            && !self.facts.has(Fact::FreshTool)
             && self.known[2]
             && self.expected.offset_on().is_some();
         if !may_come_down || self.settings.way_up_at_tip_end().is_none() {
@@ -105,7 +105,7 @@ impl<C: Steps> Walk<'_, C> {
         if !found.to.tip_control || self.own.has(found.line) {
             return;
         }
-        self.is_above = true;
+        self.facts.set(Fact::Above, true);
         let message =
             "tool-tip control begins where the length of the tool was on, and the control \
                        may have come down by it"
@@ -127,13 +127,13 @@ impl<C: Steps> Walk<'_, C> {
     /// Takes the way up, on which a work offset may wait for the next motion of the CL file.
     pub(super) fn goes_up(&mut self, cl_line: u32, found: &Move) {
         let mut seen = *found;
-        if found.modes.frame.fixture == self.moved_fixture {
+        if found.modes.frame.fixture == self.moved.modes.frame.fixture {
             seen.modes.frame.fixture = self.expected.fixture.unwrap_or(found.modes.frame.fixture);
         }
         self.take(cl_line, &seen);
-        self.moved_fixture = found.modes.frame.fixture;
+        self.moved.modes.frame.fixture = found.modes.frame.fixture;
         self.next += 1;
-        self.is_up = true;
+        self.facts.set(Fact::Up, true);
     }
 
     /// The CL file stays where the tool is, and the program ends tool-tip control, or goes up for
@@ -142,7 +142,7 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn rests_before_tip_end(&mut self, step: &Step) -> bool {
         let (Wanted::Rapid(pose) | Wanted::Feed(pose, _)) = &step.what else { return false };
         // A new tool is brought there anew.
-        if self.tool_is_fresh {
+        if self.facts.has(Fact::FreshTool) {
             return false;
         }
         while self.stands_at(pose) {
@@ -187,16 +187,6 @@ impl<C: Steps> Walk<'_, C> {
         })
     }
 
-    /// What of the modes of the last motion says whether tool-tip control goes on.
-    fn moved_modes(&self) -> Modes {
-        let frame = FrameModes {
-            fixture: self.moved_fixture,
-            tip_control_line: self.moved_tip_line,
-            ..FrameModes::default()
-        };
-        Modes { frame, ..Modes::default() }
-    }
-
     /// Where tool-tip control has ended with the machine turned, a control may have moved for it.
     pub(super) fn forget_tip(&mut self, next: &Move) {
         let turned = self.at.rotary.iter().any(|angle| angle % 360.0 != 0.0);
@@ -207,15 +197,15 @@ impl<C: Steps> Walk<'_, C> {
 
     /// Says it where tool-tip control has ended and the tool had not gone up.
     pub(super) fn check_tip_end(&mut self, cl_line: u32) {
-        let here = self.at.tip_control && !self.is_up && self.known[..3] == [true; 3];
+        let here = self.at.tip_control && !self.facts.has(Fact::Up) && self.known[..3] == [true; 3];
         if !here || self.settings.way_up_at_tip_end().is_none() {
             return;
         }
         let is_own = self.nc.get(self.next).is_some_and(|event| self.own.has(event.line()));
-        if is_own || self.ends_tip_control(self.next, &self.moved_modes()) != Some(true) {
+        if is_own || self.ends_tip_control(self.next, &self.moved.modes) != Some(true) {
             return;
         }
-        self.is_up = true;
+        self.facts.set(Fact::Up, true);
         let line = self.nc.get(self.next).map(|event| event.line());
         let message = "tool-tip control has ended where the tool stands, and the control may come \
                        down by the length of the tool"

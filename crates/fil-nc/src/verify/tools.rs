@@ -4,12 +4,12 @@ use super::ahead::Steps;
 use super::lines::RAPID_PARTS;
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::{LOOK_AHEAD, Walk};
+use super::walk::{Fact, LOOK_AHEAD, Walk};
 use crate::motion::{Course, Event, Position};
 
 impl<C: Steps> Walk<'_, C> {
     pub(super) fn tool(&mut self, cl_line: u32, number: u32, offset: u32) {
-        self.initial = None;
+        self.memory.initial = None;
         // A text may have changed the tool.
         match self.settings.names_machine_positions() {
             true => self.pass_still(cl_line),
@@ -25,7 +25,7 @@ impl<C: Steps> Walk<'_, C> {
             return self.expected.change_tool(number, offset, self.settings);
         }
         self.await_blocks_before_change();
-        self.changes += 1;
+        self.blocks.changes += 1;
         self.go_to_change_position(cl_line);
         self.take_awaited_blocks();
         match self.units_to_tool_change() {
@@ -38,7 +38,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         if let Some(Event::ToolChange { line, tool, modes }) = self.nc.get(self.next) {
             self.next += 1;
-            self.is_away = true;
+            self.facts.set(Fact::Away, true);
             self.check_standing(cl_line, line, &modes, true);
             if tool != number {
                 let message = format!("changes to tool {tool}, it should be tool {number}");
@@ -81,7 +81,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The rapids to the position where the machine changes tools.
     pub(super) fn go_to_change_position(&mut self, cl_line: u32) {
-        let wanted = self.settings.change_position(self.metric);
+        let wanted = self.settings.change_position(self.limits.metric);
         if self.settings.names_machine_positions() {
             self.go_in_machine_frame(cl_line, wanted);
             return;
@@ -122,7 +122,9 @@ impl<C: Steps> Walk<'_, C> {
         let again = |first: usize| is_there[first..].iter().take_while(|there| **there).count();
         match reached.map(|first| first + again(first)) {
             Some(count) => {
-                if let Some(raised) = self.raised_from_here(wanted[2]).filter(|_| !self.is_up) {
+                if let Some(raised) =
+                    self.raised_from_here(wanted[2]).filter(|_| !self.facts.has(Fact::Up))
+                {
                     self.check_way_up_along_head(cl_line, count, &raised);
                 }
                 for _ in 0..count {
@@ -143,7 +145,8 @@ impl<C: Steps> Walk<'_, C> {
     /// The Z motion that calls the length offset, where the settings have one.
     pub(super) fn go_to_offset_level(&mut self, cl_line: u32) {
         // A lathe calls the offset with its T word, or where it stands.
-        let level = self.settings.offset_level(self.metric).filter(|_| !self.settings.is_lathe());
+        let level =
+            self.settings.offset_level(self.limits.metric).filter(|_| !self.settings.is_lathe());
         let Some(level) = level else { return };
         // Tool-tip control takes the length up where it begins.
         if !self.takes_to_level(cl_line, level, false) && !self.settings.has_tip_control() {

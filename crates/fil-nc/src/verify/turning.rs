@@ -7,7 +7,7 @@ impl<C: Steps> Walk<'_, C> {
     /// X on the tape is another multiple of its position from here on, which the
     /// program does not say.
     pub(super) fn scale_x(&mut self, scale: f64) {
-        let change = std::mem::replace(&mut self.x_scale, scale) / scale;
+        let change = std::mem::replace(&mut self.limits.x_scale, scale) / scale;
         self.nc.scale_x(self.next, change);
     }
 

@@ -12,18 +12,18 @@ impl<C: Steps> Walk<'_, C> {
     /// it, and a part that is made so is made wrong.
     pub(super) fn check_unasked(&mut self, cl_line: u32, nc_line: u32, modes: &Modes) {
         let found = [modes.frame.moved_zero, modes.path_control];
-        if found != self.unasked {
+        if found != self.user.unasked {
             self.find_unasked(cl_line, nc_line, found);
         }
     }
 
     #[cold]
     fn find_unasked(&mut self, cl_line: u32, nc_line: u32, found: [Option<u32>; 2]) {
-        let before = std::mem::replace(&mut self.unasked, found);
+        let before = std::mem::replace(&mut self.user.unasked, found);
         let kinds = [FindingKind::Fixture, FindingKind::Extra];
         for (n, kind) in kinds.into_iter().enumerate() {
             let is_asked = |line: u32| {
-                let [first, last] = self.user_lines;
+                let [first, last] = self.user.lines;
                 let by_words = kind != FindingKind::Fixture && (first..=last).contains(&line);
                 by_words || self.own.has(line)
             };
@@ -45,18 +45,19 @@ impl<C: Steps> Walk<'_, C> {
     /// that names its plane, or words of the user's own ask for another than that of the drill.
     pub(super) fn check_plane(&mut self, cl_line: u32, found: &Move) {
         let Some((plane, line)) = found.modes.planes.unusual else {
-            self.plane = None;
+            self.moved.plane = None;
             return;
         };
-        let begins = found.modes.compensation.side != Compensation::Off && !self.was_compensated;
+        let begins = found.modes.compensation.side != Compensation::Off
+            && self.moved.modes.compensation.side == Compensation::Off;
         if begins && found.arc.is_none() && self.expected.plane != plane && !self.own.has(line) {
             return self.find_other_plane(cl_line, found, (plane, line));
         }
-        if Some(plane) == self.plane {
+        if Some(plane) == self.moved.plane {
             return;
         }
         if found.arc.is_some() || found.in_cycle {
-            self.plane = Some(plane);
+            self.moved.plane = Some(plane);
             return;
         }
         self.check_other_plane(cl_line, found, (plane, line));
@@ -64,7 +65,7 @@ impl<C: Steps> Walk<'_, C> {
 
     #[cold]
     fn check_other_plane(&mut self, cl_line: u32, found: &Move, (plane, line): (usize, u32)) {
-        self.plane = Some(plane);
+        self.moved.plane = Some(plane);
         let asked = self.expected.plane == plane;
         if asked || self.own.has(line) {
             return;

@@ -23,7 +23,7 @@ use super::wanted::{Step, Wanted};
 use super::window::Window;
 use crate::events::Events;
 use crate::forward::Pose;
-use crate::motion::{Compensation, Course, DRILLED, Event, Modes, Move, Position};
+use crate::motion::{Course, DRILLED, Event, Modes, Move, Position};
 
 /// What X is multiplied by when it is a diameter.
 const DIAMETER: f64 = 2.0;
@@ -34,87 +34,138 @@ pub(super) const LOOK_AHEAD: usize = 8;
 /// Ways shorter than this are none, mm or degrees.
 pub(super) const STILL: f64 = 1e-9;
 
-pub(super) struct Walk<'a, C> {
-    pub(super) cl: Ahead<C>,
-    pub(super) nc: Window<Sift<'a, Beside>>,
-    /// Index of the next event.
-    pub(super) next: usize,
-    pub(super) own: OwnBlocks<'a>,
-    /// Tool changes so far.
-    pub(super) changes: usize,
-    /// What the machine's own blocks are to switch.
-    pub(super) switches: OwnSwitches,
-    pub(super) auxiliaries: Auxiliaries,
-    pub(super) settings: &'a Settings<'a>,
-    pub(super) slack: Tolerances,
-    pub(super) metric: bool,
-    /// Diameter of the cutter, mm.
-    pub(super) cutter: Option<f64>,
+/// What holds of the tool since something has happened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Fact {
     /// No motion came since the cutter was named.
-    cutter_is_fresh: bool,
-    /// No motion came since the tool was changed: where it stands is not known.
-    pub(super) tool_is_fresh: bool,
+    FreshCutter,
+    /// No motion came since the tool was changed: where it is is not known.
+    FreshTool,
     /// Z has not moved since the tool was changed.
-    pub(super) height_is_fresh: bool,
-    /// Where the rapid has ended that is the last motion.
-    pub(super) rapid_end: Option<Pose>,
-    /// End of the last arc in the CL file, and as the machine corrects it.
-    pub(super) corrected_end: Option<[Point3<f64>; 2]>,
+    FreshHeight,
+    /// The height of the program has been known before.
+    HadHeight,
+    /// The last motion was one of a pass.
+    InGroove,
+    /// The last motion of the tip was at feed.
+    InCut,
+    /// The tool has gone up for the end of tool center point control.
+    Up,
+    /// The tool has gone up before tool center point control takes off the length it was brought
+    /// with.
+    Above,
+    /// A tool change or a position of the machine has brought the tool away from the part.
+    Away,
+}
+
+/// Those that a motion of X, Y or Z ends.
+const ENDED_BY_MOTION: [Fact; 3] = [Fact::FreshCutter, Fact::FreshTool, Fact::Above];
+
+/// The facts that hold, a bit for each.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Facts(u16);
+
+impl Facts {
+    fn at_start() -> Self {
+        Facts(1 << Fact::Away as u16)
+    }
+
+    pub(super) fn has(self, fact: Fact) -> bool {
+        self.0 & (1 << fact as u16) != 0
+    }
+
+    pub(super) fn set(&mut self, fact: Fact, holds: bool) {
+        let bit = 1 << fact as u16;
+        self.0 = if holds { self.0 | bit } else { self.0 & !bit };
+    }
+
+    pub(super) fn end_unless(&mut self, fact: Fact, stays: bool) {
+        self.set(fact, self.has(fact) && stays);
+    }
+
+    pub(super) fn add_if(&mut self, fact: Fact, begins: bool) {
+        self.set(fact, self.has(fact) || begins);
+    }
+}
+
+/// The last motion taken.
+#[derive(Default)]
+pub(super) struct LastMotion {
+    /// Its line in the program.
+    pub(super) line: u32,
+    pub(super) modes: Modes,
+    /// It was one under tool center point control.
+    tip: bool,
+    /// Its unusual plane, by the index of its normal.
+    pub(super) plane: Option<usize>,
+}
+
+/// How the axes are written, and how far they go, in the unit of the program at hand.
+pub(super) struct AxisLimits {
+    pub(super) metric: bool,
     /// Travel of the linear axes, mm.
     pub(super) travel: [(f64, f64); 3],
     pub(super) written: [bool; 3],
     pub(super) splits_rapids: bool,
     /// What the program multiplies X by.
     pub(super) x_scale: f64,
-    /// Where the program stands.
-    pub(super) at: Position,
-    pub(super) known: [bool; 5],
-    /// The height of the program has been known before.
-    pub(super) has_had_height: bool,
-    /// The tool of the last motion, and its work offset.
-    pub(super) moved_tool: u32,
-    pub(super) moved_fixture: Option<u32>,
-    /// Where the tool-tip control of the last motion began.
-    pub(super) moved_tip_line: u32,
-    /// Exact rotary positions that the tape shows rounded.
-    pub(super) exact: [f64; 2],
-    /// Line of the last motion taken.
-    pub(super) line: u32,
-    pub(super) expected: Expected,
-    /// How the spindle turned in the passes of the thread so far.
-    pub(super) thread_turns: Option<Turns>,
-    /// The last motion was one of a pass.
-    pub(super) is_in_groove: bool,
-    pub(super) watch: Watch,
-    /// The first and the last line of the program that may hold words of the user's own.
-    pub(super) user_lines: [u32; 2],
-    /// F that REPEAT writes into each motion, beside its own, as on the tape.
-    pub(super) repeated_feed: Option<f64>,
-    /// Lines of statements that no record asks for, of which that was said.
-    pub(super) unasked: [Option<u32>; 2],
-    /// The unusual plane of the last motion, by the index of its normal.
-    pub(super) plane: Option<usize>,
-    /// Cutter compensation was on at the last motion.
-    pub(super) was_compensated: bool,
+}
+
+/// What a step leaves for those after it.
+#[derive(Default)]
+pub(super) struct StepMemory {
+    /// Where the rapid has ended that is the last motion.
+    pub(super) rapid_end: Option<Pose>,
+    /// Where the rapid at hand leads, as the CL file names it.
+    pub(super) rapid_to: Option<Pose>,
+    /// End of the last arc in the CL file, and as the machine corrects it.
+    pub(super) corrected_end: Option<[Point3<f64>; 2]>,
     /// Level the control's cycle began from.
     pub(super) initial: Option<f64>,
-    /// From the directions of the hole, in which its moves are said.
+    /// From the directions of the hole, in which its moves are written.
     pub(super) from_hole: Option<FromHole>,
-    /// The tool has gone up for the end of tool-tip control.
-    pub(super) is_up: bool,
-    /// The tool has gone up before tool-tip control takes off the length it was brought with.
-    pub(super) is_above: bool,
-    /// A tool change or a position of the machine has brought the tool away from the part.
-    pub(super) is_away: bool,
-    /// Where the rapid at hand leads, as the CL file says it.
-    pub(super) rapid_to: Option<Pose>,
-    /// The last motion was one under tool-tip control.
-    moved_tip: bool,
+    /// How the spindle turned in the passes of the thread so far.
+    pub(super) thread_turns: Option<Turns>,
+}
+
+/// What words of the user's own do.
+pub(super) struct UserWords {
+    /// The first and the last line of the program that may hold them.
+    pub(super) lines: [u32; 2],
+    /// F that REPEAT writes into each motion, beside its own, as on the tape.
+    pub(super) repeated_feed: Option<f64>,
+    /// Lines of statements that no record asks for, which were reported.
+    pub(super) unasked: [Option<u32>; 2],
+}
+
+pub(super) struct Walk<'a, C> {
+    pub(super) cl: Ahead<C>,
+    pub(super) nc: Window<Sift<'a, Beside>>,
+    /// Index of the next event.
+    pub(super) next: usize,
+    pub(super) own: OwnBlocks<'a>,
+    /// What the machine's own blocks are to switch.
+    pub(super) blocks: OwnSwitches,
+    pub(super) auxiliaries: Auxiliaries,
+    pub(super) settings: &'a Settings<'a>,
+    pub(super) slack: Tolerances,
+    pub(super) limits: AxisLimits,
+    /// Diameter of the cutter, mm.
+    pub(super) cutter: Option<f64>,
+    pub(super) facts: Facts,
+    pub(super) memory: StepMemory,
+    /// Where the program is.
+    pub(super) at: Position,
+    pub(super) known: [bool; 5],
+    /// Exact rotary positions that the tape shows rounded.
+    pub(super) exact: [f64; 2],
     /// Z of the machine, as far as motions have said it, mm.
     pub(super) height: Option<f64>,
-    /// The last motion of the tip was at feed.
-    pub(super) is_in_cut: bool,
-    /// What was said of the last position, so that one fault is said once.
+    pub(super) moved: LastMotion,
+    pub(super) expected: Expected,
+    pub(super) watch: Watch,
+    pub(super) user: UserWords,
+    /// What was reported of the last position, so that one fault is reported once.
     pub(super) said: Option<Shape>,
     pub(super) report: Report,
     /// The program can't be read on.
@@ -135,48 +186,28 @@ impl<'a, C: Steps> Walk<'a, C> {
             nc: Window::new(Sift::new(nc, Beside::new(settings))),
             next: 0,
             own,
-            changes: 0,
-            switches: OwnSwitches::default(),
+            blocks: OwnSwitches::default(),
             auxiliaries: Auxiliaries::new(settings.way_out_codes()),
             settings,
             slack: settings.slack(true),
-            metric: true,
+            limits: AxisLimits {
+                metric: true,
+                travel: settings.travel(true),
+                written: settings.written(),
+                splits_rapids: settings.splits_rapids(),
+                x_scale: settings.x_scale(),
+            },
             cutter: None,
-            cutter_is_fresh: false,
-            tool_is_fresh: false,
-            height_is_fresh: false,
-            rapid_end: None,
-            corrected_end: None,
-            travel: settings.travel(true),
-            written: settings.written(),
-            splits_rapids: settings.splits_rapids(),
-            x_scale: settings.x_scale(),
+            facts: Facts::at_start(),
+            memory: StepMemory::default(),
             at: Position::default(),
             known: [false; 5],
-            has_had_height: false,
-            moved_tool: 0,
-            moved_fixture: None,
-            moved_tip_line: 0,
             exact: [0.0; 2],
-            line: 0,
-            expected: Expected::new(settings),
-            thread_turns: None,
-            is_in_groove: false,
-            watch,
-            user_lines: [u32::MAX, 0],
-            repeated_feed: None,
-            unasked: [None; 2],
-            plane: None,
-            was_compensated: false,
-            initial: None,
-            from_hole: None,
-            is_up: false,
-            is_above: false,
-            is_away: true,
-            rapid_to: None,
-            moved_tip: false,
             height: None,
-            is_in_cut: false,
+            moved: LastMotion::default(),
+            expected: Expected::new(settings),
+            watch,
+            user: UserWords { lines: [u32::MAX, 0], repeated_feed: None, unasked: [None; 2] },
             said: None,
             report: Report::default(),
             failed: None,
@@ -198,7 +229,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             return Err(diag);
         }
         if !self.over && ended {
-            let around = self.settings.blocks_of_changes(self.changes);
+            let around = self.settings.blocks_of_changes(self.blocks.changes);
             let missing = self.own.missing().into_iter().chain(self.own.missing_around(&around));
             missing.for_each(|text| {
                 self.report.find(Finding {
@@ -231,29 +262,30 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.expected.take(&step.what, self.settings);
         match &step.what {
             Wanted::Metric(metric) => {
-                self.metric = *metric;
+                self.limits.metric = *metric;
                 self.slack = self.settings.slack(*metric);
-                self.travel = self.settings.travel(*metric);
+                self.limits.travel = self.settings.travel(*metric);
             }
-            Wanted::Home => self.go_to_machine(step.line, self.settings.home(self.metric)),
+            Wanted::Home => self.go_to_machine(step.line, self.settings.home(self.limits.metric)),
             Wanted::Retract => self.retract(step.line),
             Wanted::Turn { index, angle, way } => self.turn(step.line, *index, *angle, *way),
             Wanted::Cutter(diameter) => {
-                (self.cutter, self.cutter_is_fresh) = (Some(*diameter), true);
+                self.cutter = Some(*diameter);
+                self.facts.set(Fact::FreshCutter, true);
             }
             Wanted::Mills(mills) if self.settings.is_mill_turn() => {
                 self.ask_spindle_mode(step.line, *mills);
             }
             Wanted::Mills(mills) => self.scale_x(if *mills { 1.0 } else { DIAMETER }),
             Wanted::CycleEnd => self.end_cycle(step.line),
-            Wanted::ThreadBegins => self.thread_turns = None,
+            Wanted::ThreadBegins => self.memory.thread_turns = None,
             Wanted::Straight(within) => self.watch.ask(*within),
             Wanted::LeftOut => self.watch.begin_elsewhere(self.settings.divides_within()),
             Wanted::Tool { number, offset } => {
-                self.height_is_fresh = self.settings.restates_after_change();
+                self.facts.set(Fact::FreshHeight, self.settings.restates_after_change());
                 self.tool(step.line, *number, self.settings.tool_offset(*number, *offset));
-                self.cutter = self.cutter.filter(|_| self.cutter_is_fresh);
-                self.tool_is_fresh = true;
+                self.cutter = self.cutter.filter(|_| self.facts.has(Fact::FreshCutter));
+                self.facts.set(Fact::FreshTool, true);
             }
             Wanted::ToolLeftOut { number, offset } => {
                 let offset = self.settings.tool_offset(*number, *offset);
@@ -282,9 +314,9 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::Unknown { what, effect } => self.unknown(step.line, what, *effect),
             Wanted::Repeated(text) => {
                 let of_feed = text.split(' ').find_map(|word| word.strip_prefix('F'));
-                self.repeated_feed = of_feed.and_then(|value| value.parse().ok());
+                self.user.repeated_feed = of_feed.and_then(|value| value.parse().ok());
                 if !text.is_empty() {
-                    self.user_lines[1] = u32::MAX;
+                    self.user.lines[1] = u32::MAX;
                 }
             }
             Wanted::Stop { optional } => {
@@ -309,7 +341,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         let step = corrected.as_ref().unwrap_or(step);
         let made = self.is_made(step);
         // Said again at the same number, Z has come down too.
-        self.height_is_fresh = false;
+        self.facts.set(Fact::FreshHeight, false);
         self.watch.stand(step.what.end().filter(|_| made && !matches!(step.what, Wanted::Hole(_))));
     }
 
@@ -317,7 +349,7 @@ impl<'a, C: Steps> Walk<'a, C> {
     fn is_made(&mut self, step: &Step) -> bool {
         self.report.compared += 1;
         if !matches!(step.what, Wanted::Hole(_)) {
-            self.initial = None;
+            self.memory.initial = None;
         }
         let rests = self.at.tip_control && self.rests_before_tip_end(step);
         if rests || self.rests_before_machine(step) {
@@ -414,7 +446,7 @@ impl<'a, C: Steps> Walk<'a, C> {
     /// Takes a motion: its modes, its limits, where it goes.
     pub(super) fn take(&mut self, cl_line: u32, found: &Move) {
         let at = self.at_as(found);
-        let ends_tip = self.moved_tip && !found.to.tip_control;
+        let ends_tip = self.moved.tip && !found.to.tip_control;
         let differs = |n: usize| {
             let way = (found.to.linear[n] - at.linear[n]).abs();
             let turns = found.arc.is_some_and(|arc| arc.normal != n);
@@ -430,10 +462,9 @@ impl<'a, C: Steps> Walk<'a, C> {
             in_plane: (0..3).any(|n| n != normal && differs(n)),
         };
         if moved.xy || moved.z {
-            (self.cutter_is_fresh, self.tool_is_fresh) = (false, false);
-            self.is_above = false;
+            ENDED_BY_MOTION.iter().for_each(|fact| self.facts.set(*fact, false));
         }
-        self.height_is_fresh &= !moved.z;
+        self.facts.end_unless(Fact::FreshHeight, !moved.z);
         let cuts = matches!(found.course, Course::Feed | Course::Thread);
         if ends_tip && found.modes.length.offset.is_none() {
             self.expected.length_is_taken_off();
@@ -447,21 +478,19 @@ impl<'a, C: Steps> Walk<'a, C> {
         }
         self.check_unasked(cl_line, found.line, &found.modes);
         self.check_plane(cl_line, found);
-        self.was_compensated = found.modes.compensation.side != Compensation::Off;
         self.check_limits(cl_line, found);
         self.check_bend(cl_line, found);
         self.leaves_or_comes(found);
         self.follow_groove(found);
         self.follow_height(found, cuts);
-        (self.is_up, self.rapid_end) = (false, None);
-        self.line = found.line;
+        self.facts.set(Fact::Up, false);
+        self.memory.rapid_end = None;
         self.at = found.to;
-        self.moved_tool = found.modes.tool;
-        self.moved_fixture = found.modes.frame.fixture;
-        self.moved_tip_line = found.modes.frame.tip_control_line;
-        self.moved_tip = found.to.tip_control;
+        let plane = self.moved.plane;
+        let tip = found.to.tip_control;
+        self.moved = LastMotion { line: found.line, modes: found.modes, tip, plane };
         self.known = found.known;
-        self.has_had_height |= found.known[2];
+        self.facts.add_if(Fact::HadHeight, found.known[2]);
     }
 
     /// What must be in force while the axes stand.
@@ -485,7 +514,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         }
         self.pass(cl_line);
         if let Some((kind, message)) = self.expected.settle() {
-            self.find(kind, Some(cl_line), Some(self.line), message);
+            self.find(kind, Some(cl_line), Some(self.moved.line), message);
         }
     }
 

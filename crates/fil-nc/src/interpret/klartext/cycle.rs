@@ -100,7 +100,7 @@ impl Klartext<'_> {
             }
             (247, "0") => {
                 self.state.refuse_under_tip_control("another preset")?;
-                if self.state.tilt.is_some() {
+                if self.state.head.tilt.is_some() {
                     let message = "another preset in a tilted plane";
                     return Err(Fault::new(NcCode::NoMeaning, message));
                 }
@@ -240,7 +240,7 @@ impl Klartext<'_> {
         self.state.refuse_under_tip_control("a cycle")?;
         let missing = || Fault::new(NcCode::MissingWord, "no cycle is defined");
         let definition = self.defined.clone().ok_or_else(missing)?;
-        if self.state.feed_mode != FeedMode::PerMinute {
+        if self.state.feed.mode != FeedMode::PerMinute {
             let message = "a cycle under M136: whether it takes its feed a turn is not followed";
             return Err(Fault::new(NcCode::ForeignCode, message));
         }
@@ -252,7 +252,7 @@ impl Klartext<'_> {
             return Err(Fault::new(NcCode::BadNumber, "the pecks are too small to count"));
         }
         let initial_known = self.state.known[2];
-        self.state.cycle = Some(Cycle::of_hole(hole.kind, self.state.at[2], initial_known));
+        self.state.cycle.active = Some(Cycle::of_hole(hole.kind, self.state.at[2], initial_known));
         self.state.known[2] = true;
         self.up_and_down(Course::Rapid, hole.clear, None);
         self.drill(&hole);
@@ -271,7 +271,7 @@ impl Klartext<'_> {
         }
         self.state.modes.spindle.turn = turning;
         self.up_and_down(Course::Rapid, hole.rest, None);
-        self.state.cycle = None;
+        self.state.cycle.active = None;
         Ok(())
     }
 

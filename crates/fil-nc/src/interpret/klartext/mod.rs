@@ -70,7 +70,7 @@ impl<'a> Program<'a> {
     pub(super) fn new(source: &'a Source<'a>, dialect: &'a Dialect) -> Self {
         let mut state = State::new(dialect);
         state.plane = 2;
-        state.feed_mode = FeedMode::PerMinute;
+        state.feed.mode = FeedMode::PerMinute;
         let control = Klartext {
             state,
             part: Part::Head,
@@ -217,10 +217,10 @@ impl Klartext<'_> {
 
     /// What F counts: another mode needs another F.
     pub(super) fn feed_mode(&mut self, mode: FeedMode) {
-        if self.state.feed_mode != mode {
-            self.state.feed = None;
+        if self.state.feed.mode != mode {
+            self.state.feed.word = None;
         }
-        self.state.feed_mode = mode;
+        self.state.feed.mode = mode;
     }
 
     /// The M functions of a line that has nothing else.

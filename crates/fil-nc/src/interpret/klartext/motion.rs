@@ -45,7 +45,7 @@ impl Klartext<'_> {
             if said.machine {
                 self.state.refuse_under_tip_control("a point of the machine")?;
             }
-            if said.machine && self.state.tilt.is_some() {
+            if said.machine && self.state.head.tilt.is_some() {
                 let message = "a point of the machine in a tilted plane";
                 return Err(Fault::new(NcCode::NoMeaning, message));
             }
@@ -291,7 +291,7 @@ impl Klartext<'_> {
             return Ok(());
         }
         if let Some(feed) = word.value("F") {
-            self.state.feed = Some(feed?);
+            self.state.feed.word = Some(feed?);
             return Ok(());
         }
         if let Some(radius) = word.value("R") {

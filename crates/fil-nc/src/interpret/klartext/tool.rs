@@ -48,7 +48,7 @@ impl Klartext<'_> {
         if speed.is_some() {
             self.state.modes.spindle.speed = speed.map(Speed::Turns);
         }
-        self.state.feed = feed.or(self.state.feed);
+        self.state.feed.word = feed.or(self.state.feed.word);
         Ok(())
     }
 }

@@ -74,7 +74,7 @@ impl Sinumerik<'_> {
         if matches!(said.has(7), Some(Function::Offset(code)) if self.state.moves_fixture(code)) {
             self.state.refuse_under_tip_control("another work offset")?;
         }
-        if self.state.tilt.is_some()
+        if self.state.head.tilt.is_some()
             && matches!(said.has(7), Some(Function::Offset(code)) if self.state.moves_fixture(code))
         {
             let message = "another work offset in a tilted plane";
@@ -118,9 +118,9 @@ impl Sinumerik<'_> {
             _ => {}
         }
         if let Some(feed) = said.feed {
-            self.state.feed = Some(feed);
-        } else if self.state.feed_mode == FeedMode::Inverse && said.moves() {
-            self.state.feed = None;
+            self.state.feed.word = Some(feed);
+        } else if self.state.feed.mode == FeedMode::Inverse && said.moves() {
+            self.state.feed.word = None;
         }
         if said.has(8) == Some(Function::Machine) {
             return self.in_machine_frame(said);
@@ -329,7 +329,7 @@ impl Sinumerik<'_> {
                     state.set_metric(metric);
                     if feeds && self.metric_feed != metric {
                         self.metric_feed = metric;
-                        state.feed = None;
+                        state.feed.word = None;
                     }
                 }
                 Function::Positions { absolute } => {
@@ -361,10 +361,10 @@ impl Sinumerik<'_> {
     }
 
     fn feed_mode(&mut self, mode: FeedMode) {
-        if self.state.feed_mode != mode {
-            self.state.feed = None;
+        if self.state.feed.mode != mode {
+            self.state.feed.word = None;
         }
-        self.state.feed_mode = mode;
+        self.state.feed.mode = mode;
         self.state.certain.say(StartMode::Feed);
     }
 

@@ -158,7 +158,7 @@ impl Sinumerik<'_> {
             _ => CycleKind::FeedOut,
         };
         let initial = self.state.at[at.axis];
-        self.state.cycle = Some(Cycle::of_hole(kind, initial, self.state.known[at.axis]));
+        self.state.cycle.active = Some(Cycle::of_hole(kind, initial, self.state.known[at.axis]));
         self.state.known[at.axis] = true;
         self.go(&at, at.clear, Course::Rapid, None);
         let result = match call.number {
@@ -173,7 +173,7 @@ impl Sinumerik<'_> {
         if call.number == 86 {
             self.state.modes.spindle.turn = sense(call.need("SDIR")?)?;
         }
-        self.state.cycle = None;
+        self.state.cycle.active = None;
         result
     }
 

@@ -218,14 +218,14 @@ impl Sinumerik<'_> {
             [call] => Some(self.call_of(call)?),
             [_, other, ..] => return Err(other.no_meaning()),
         };
-        self.state.is_called_at_each = self.called.is_some();
+        self.state.cycle.at_each = self.called.is_some();
         Ok(())
     }
 
     /// TRANS places the zero from that of the work offset, ATRANS from where it lies:
     /// where the axes stand in it is not known.
     fn translate(&mut self, statement: &Word, words: &[Word]) -> Result<(), Fault> {
-        if self.state.tilt.is_some() {
+        if self.state.head.tilt.is_some() {
             return Err(statement.foreign("in a tilted plane is not followed"));
         }
         let mut shift = if statement.name == "ATRANS" { self.shift } else { [0.0; 3] };

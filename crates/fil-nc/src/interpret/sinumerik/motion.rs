@@ -44,7 +44,7 @@ impl Sinumerik<'_> {
                     return Err(Fault::new(NcCode::MissingWord, message));
                 };
                 let change = if self.lead_shrinks { -change } else { change };
-                self.state.feed = None;
+                self.state.feed.word = None;
                 self.thread(said, Some(change * self.state.unit()))?;
             }
             Some(Function::Arc { ccw }) => {
@@ -102,7 +102,7 @@ impl Sinumerik<'_> {
 
     /// The feed in force. G70 and G71 change lengths and not feeds.
     pub(super) fn rate(&self) -> Result<Rate, Fault> {
-        let feed = self.state.feed.filter(|feed| *feed > 0.0);
+        let feed = self.state.feed.word.filter(|feed| *feed > 0.0);
         let feed = feed.ok_or_else(|| Fault::new(NcCode::NoFeed, "no F word is in force"))?;
         Ok(self.rate_of(feed))
     }
@@ -110,7 +110,7 @@ impl Sinumerik<'_> {
     /// What a feed stands for.
     pub(super) fn rate_of(&self, feed: f64) -> Rate {
         let (dialect, unit) = (self.state.dialect, unit(self.metric_feed));
-        match self.state.feed_mode {
+        match self.state.feed.mode {
             FeedMode::PerMinute => Rate::PerMinute(feed / dialect.factor(Amount::Feed) * unit),
             FeedMode::PerTurn => Rate::PerTurn(feed * unit),
             FeedMode::Inverse => Rate::Inverse(feed / dialect.factor(Amount::Inverse)),
@@ -220,7 +220,7 @@ impl Sinumerik<'_> {
             return Ok(());
         }
         self.state.refuse_under_tip_control("a point of the machine")?;
-        if self.state.tilt.is_some() {
+        if self.state.head.tilt.is_some() {
             let message = "a point of the machine in a tilted plane";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }

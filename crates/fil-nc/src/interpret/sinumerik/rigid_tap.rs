@@ -23,13 +23,13 @@ impl Sinumerik<'_> {
         if state.modes.spindle.turn != Spindle::Off || state.modes.spindle.orientation.is_none() {
             return refuse("G331 and G332 while the spindle is not under position control (SPOS)");
         }
-        if state.feed_mode != FeedMode::PerMinute {
+        if state.feed.mode != FeedMode::PerMinute {
             return refuse("G331 and G332 under a feed that counts the turns of the spindle");
         }
         if state.modes.spindle.speed.is_none() || state.surface {
             return refuse("G331 and G332 without the turns of the spindle (S)");
         }
-        if self.called.is_some() || said.radius.is_some() || state.tilt.is_some() {
+        if self.called.is_some() || said.radius.is_some() || state.head.tilt.is_some() {
             return refuse("G331 and G332 in a cycle, with a radius or in a tilted plane");
         }
         let (along, lead) = match said.center {

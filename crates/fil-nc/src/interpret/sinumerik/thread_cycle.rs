@@ -23,7 +23,7 @@ impl Sinumerik<'_> {
     /// Runs the cycle.
     pub(super) fn thread_passes(&mut self, call: &Call) -> Result<(), Fault> {
         call.refuse(&["MPIT", "APP", "ROP", "FAL", "IANG", "NSP"])?;
-        if self.state.live || self.state.plane != 1 || self.state.surface {
+        if self.state.live.is_on || self.state.plane != 1 || self.state.surface {
             return refuse("CYCLE97 of a live tool, outside of G18 or at surface speed");
         }
         if call.get("NUMTH").is_some_and(|starts| starts > 1.0) {

@@ -40,7 +40,7 @@ impl Sinumerik<'_> {
         };
         let [milling, turning] = self.state.dialect.turning.mode_codes;
         match number {
-            1 if self.state.live => self.change_spindle(false, turning),
+            1 if self.state.live.is_on => self.change_spindle(false, turning),
             1 => Ok(()),
             number if number == live && self.is_axis => self.change_spindle(true, milling),
             number if number == live => {
@@ -60,7 +60,7 @@ impl Sinumerik<'_> {
         if self.state.dialect.number(Numbered::LiveSpindle).is_none() {
             return self.change_spindle(on, Some(code as i32));
         }
-        if self.state.modes.spindle.turn != Spindle::Off || self.state.live {
+        if self.state.modes.spindle.turn != Spindle::Off || self.state.live.is_on {
             return refuse("a spindle becomes an axis while it turns, or is that of a live tool");
         }
         self.is_axis = on;
@@ -86,12 +86,12 @@ impl Sinumerik<'_> {
         if !self.state.known[C] {
             return refuse("TRACYL, and where C stands is not known");
         }
-        self.state.cylinder = Some(diameter / 2.0 * self.state.unit());
+        self.state.live.cylinder = Some(diameter / 2.0 * self.state.unit());
         Ok(())
     }
 
     fn check_transformation(&self) -> Result<(), Fault> {
-        if !self.state.dialect.has(Habit::Transforms) || !self.state.live {
+        if !self.state.dialect.has(Habit::Transforms) || !self.state.live.is_on {
             return refuse("a transformation while the main spindle is no axis");
         }
         if self.is_transformed() {
@@ -113,24 +113,24 @@ impl Sinumerik<'_> {
             return Ok(false);
         }
         self.check_no_compensation()?;
-        if self.state.polar {
+        if self.state.live.polar {
             let plane = self.state.plane;
             self.state.end_polar()?;
             self.state.plane = plane;
         }
-        self.state.cylinder = None;
+        self.state.live.cylinder = None;
         Ok(true)
     }
 
     pub(super) fn is_transformed(&self) -> bool {
-        self.state.polar || self.state.cylinder.is_some()
+        self.state.live.polar || self.state.live.cylinder.is_some()
     }
 
     /// Where an axis word of the block leads: which axis, by what on the tape as its scale counts
     /// it. Y of TRACYL turns C.
     pub(super) fn in_transformation(&self, axis: usize, value: f64) -> (usize, f64) {
         let is_diameter = self.state.dialect.axes[0].scale.is_some_and(|x| x.is_diameter());
-        match (axis, self.state.cylinder) {
+        match (axis, self.state.live.cylinder) {
             (0, _) if self.counts_radii && is_diameter => (0, 2.0 * value),
             (1, Some(radius)) => (C, (value * self.state.unit() / radius).to_degrees()),
             _ => (axis, value),
@@ -146,14 +146,17 @@ impl Sinumerik<'_> {
         if self.state.dialect.has(Habit::Transforms) && names(1) && !self.is_transformed() {
             return refuse("a word of Y without TRANSMIT and TRACYL");
         }
-        if names(C) && (self.is_transformed() || !self.state.live) {
+        if names(C) && (self.is_transformed() || !self.state.live.is_on) {
             return refuse("a word of C in a transformation, or of a spindle that is no axis");
         }
-        if self.state.live && self.state.surface && self.state.modes.spindle.turn != Spindle::Off {
+        if self.state.live.is_on
+            && self.state.surface
+            && self.state.modes.spindle.turn != Spindle::Off
+        {
             return refuse("a surface speed of a live tool");
         }
         let threads = [Function::Thread, Function::VaryingThread].map(Some);
-        if self.state.live && threads.contains(&self.state.motion) && said.moves() {
+        if self.state.live.is_on && threads.contains(&self.state.motion) && said.moves() {
             return refuse("a thread while the main spindle is the axis C");
         }
         if self.counts_radii && said.moves() && !self.is_transformed() && !said.taps() {
@@ -164,13 +167,13 @@ impl Sinumerik<'_> {
 
     /// An arc of a live tool: in TRANSMIT in its plane, at a feed a minute.
     pub(super) fn check_live_arc(&self, normal: usize, rises: bool) -> Result<(), Fault> {
-        if !self.state.live {
+        if !self.state.live.is_on {
             return Ok(());
         }
-        if self.state.feed_mode == FeedMode::PerTurn {
+        if self.state.feed.mode == FeedMode::PerTurn {
             return refuse("a feed a turn of a main spindle that is the axis C");
         }
-        if self.state.cylinder.is_some() || self.state.polar && (normal != 2 || rises) {
+        if self.state.live.cylinder.is_some() || self.state.live.polar && (normal != 2 || rises) {
             return refuse("an arc in TRACYL, or of TRANSMIT in another plane than X and Y");
         }
         Ok(())

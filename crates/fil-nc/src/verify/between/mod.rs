@@ -15,7 +15,7 @@ use nalgebra::{Point3, Vector3};
 use super::ahead::Steps;
 use super::report::{Finding, FindingKind, Report};
 use super::say::short;
-use super::walk::{STILL, Walk};
+use super::walk::{Fact, STILL, Walk};
 use super::wanted::Arc;
 use crate::bend;
 use crate::forward::{Forward, Pose};
@@ -259,7 +259,8 @@ impl<C: Steps> Walk<'_, C> {
         // A tool change may have moved the axes, and another work offset lies elsewhere: the way
         // from there is none of the CL file.
         let known = self.is_known(&self.known) && self.is_known(&found.known);
-        let begins_anywhere = self.tool_is_fresh || found.modes.frame.fixture != self.moved_fixture;
+        let begins_anywhere = self.facts.has(Fact::FreshTool)
+            || found.modes.frame.fixture != self.moved.modes.frame.fixture;
         if !known || begins_anywhere || !turns(&self.settings.forward, &self.at, &found.to) {
             return;
         }

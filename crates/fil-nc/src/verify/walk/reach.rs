@@ -65,7 +65,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// All axes that the program writes are known.
     pub(in super::super) fn is_known(&self, known: &[bool; 5]) -> bool {
-        let linear = (0..3).all(|n| known[n] || !self.written[n]);
+        let linear = (0..3).all(|n| known[n] || !self.limits.written[n]);
         let rotary = |n: usize| known[n + 3] || self.settings.forward.rotaries()[n].is_none();
         linear && rotary(0) && rotary(1)
     }
