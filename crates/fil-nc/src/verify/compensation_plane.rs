@@ -46,14 +46,14 @@ impl MeantPlane {
 impl Expected {
     /// The plane in which a live tool is compensated, by the index of its normal.
     pub(super) fn plane_of_live_tool(&self) -> Option<usize> {
-        (self.meant_plane == MeantPlane::OfMillTurn && self.mills()).then_some(self.plane)
+        (self.plane.meant == MeantPlane::OfMillTurn && self.mills()).then_some(self.plane.named)
     }
 
     /// The cutter is compensated in another plane than is meant.
     pub(super) fn wrong_plane(&self, modes: &Modes) -> Option<String> {
-        let must = match self.meant_plane {
+        let must = match self.plane.meant {
             MeantPlane::Open => None,
-            MeantPlane::OfRecord => Some(self.plane).filter(|plane| *plane != DRILLED),
+            MeantPlane::OfRecord => Some(self.plane.named).filter(|plane| *plane != DRILLED),
             MeantPlane::OfTurning | MeantPlane::OfMillTurn if !self.mills() => Some(ZX),
             MeantPlane::OfTurning | MeantPlane::OfMillTurn => self.plane_of_live_tool(),
         }?;

@@ -1,8 +1,7 @@
 //! What a block of INSERT switches, the CL file asks for.
 
-use super::again::Again;
 use super::ahead::Steps;
-use super::lag::Lag;
+use super::delayed::DelayedMode;
 use super::modes::Expected;
 use super::settings::{Due, Settings};
 use super::walk::Walk;
@@ -50,7 +49,7 @@ impl Expected {
                 // The offset of a turning tool stands in its T word.
                 b'T' if settings.calls_tools_with_offset() => {
                     let offset = u32::try_from(number.digits % TOOLS_STEP).ok();
-                    self.offset.set(offset.filter(|offset| *offset > 0), Due::Now);
+                    self.length.require(offset.filter(|offset| *offset > 0), Due::Now);
                 }
                 b'S' => self.insert_speed(number.value(), settings),
                 _ => {}
@@ -62,23 +61,25 @@ impl Expected {
     pub(super) fn insert_speed(&mut self, speed: f64, settings: &Settings) {
         // Turns or surface speed: the text need not say it.
         let is_either = settings.dialect.has_surface_speed();
-        self.speed.set(Some(Speed::Turns(speed)).filter(|_| !is_either), Due::Now);
-        self.has_speed = true;
+        self.spindle.speed.set(Some(Speed::Turns(speed)).filter(|_| !is_either), Due::Now);
+        self.naming.has_speed = true;
     }
 
     /// Takes up what a SINUMERIK says by names, and functions that no setting names.
     fn insert_statements(&mut self, line: &[u8]) {
         for word in sinumerik_words::read(line).unwrap_or_default() {
             match (word.name.as_str(), &word.value) {
-                ("T", Some(_)) => self.offset.set(None, Due::Now),
+                ("T", Some(_)) => self.length.require(None, Due::Now),
                 ("D", Some(Value::Number(0.0))) => self.give_length_up(),
                 ("D", Some(Value::Number(edge))) => {
-                    self.loaded_offset = None;
-                    self.offset.set(Some(*edge as u32), Due::Now);
+                    self.tool.loaded_offset = None;
+                    self.length.require(Some(*edge as u32), Due::Now);
                 }
-                ("LIMS", Some(Value::Number(limit))) => self.speed_limit = Some(Some(*limit)),
+                ("LIMS", Some(Value::Number(limit))) => {
+                    self.spindle.speed_limit = Some(Some(*limit))
+                }
                 (name, Some(_)) if name.starts_with("SPOS") => self.insert_stop(),
-                ("G", Some(Value::Number(500.0))) => self.fixture = Some(Some(500)),
+                ("G", Some(Value::Number(500.0))) => self.fixture.must = Some(Some(500)),
                 ("M", Some(Value::Number(70.0))) => self.insert_stop(),
                 _ => {}
             }
@@ -88,15 +89,14 @@ impl Expected {
     /// A text takes the length of the tool off, as on a way to a point of the machine. What the CL
     /// file moves behind it has the length that was asked for, from the next way of Z on.
     fn give_length_up(&mut self) {
-        let asked = self.offset.asked();
-        self.offset = Lag::new(None);
-        self.offset.set(asked, Due::WithZ);
+        let asked = self.length.asked().flatten();
+        self.length = DelayedMode::new(Some(None));
+        self.length.require(asked, Due::WithZ);
     }
 
     /// The spindle stands, at whatever angle.
     pub(super) fn insert_stop(&mut self) {
-        self.spindle.set(None, Due::Now);
-        self.orientation = None;
+        self.spindle.turn_now(None);
     }
 
     fn insert_function(&mut self, function: Function, block: &Block, settings: &Settings) {
@@ -106,32 +106,32 @@ impl Expected {
         };
         let printed = |letter: u8| letter + b'A' - 1;
         match function {
-            Function::Fixture(code) => self.fixture = Some(Some(code)),
+            Function::Fixture(code) => self.fixture.must = Some(Some(code)),
             Function::NumberedFixture(tenths) => {
                 let number = whole(printed(settings.dialect.letter(Role::FixtureNumber)));
-                self.fixture = number.map(|number| Some(tenths * 1000 + number));
+                self.fixture.must = number.map(|number| Some(tenths * 1000 + number));
             }
             Function::Compensation(side) => {
                 let offset = whole(printed(settings.dialect.letter(Role::ToolOffset)));
                 let offset = offset.filter(|_| side != Compensation::Off);
-                self.compensation.set((side, offset), Due::Now);
+                self.compensation.require((side, offset), Due::Now);
             }
-            Function::Plane(normal) => self.plane = normal,
-            Function::Length(true) => self.offset.set(whole(b'H'), Due::Now),
+            Function::Plane(normal) => self.plane.named = normal,
+            Function::Length(true) => self.length.require(whole(b'H'), Due::Now),
             Function::Length(false) => self.give_length_up(),
-            Function::SpeedLimit => self.speed_limit = None,
+            Function::SpeedLimit => self.spindle.speed_limit = None,
             // G94 and G95 of a SINUMERIK end G96, which is one of their group.
             Function::Feed(_)
                 if settings.has_edges()
-                    && self.speed.asked().is_some_and(|speed| speed.turns().is_none()) =>
+                    && self.spindle.speed.asked().is_some_and(|speed| speed.turns().is_none()) =>
             {
-                self.speed.set(None, Due::Now);
+                self.spindle.speed.set(None, Due::Now);
             }
             // The S of the other mode, which the text need not say, comes with it.
             Function::Surface(on) => {
-                self.speed.set(None, Due::Now);
+                self.spindle.speed.set(None, Due::Now);
                 if on && settings.limit_comes_with_surface() {
-                    self.speed_limit = None;
+                    self.spindle.speed_limit = None;
                 }
             }
             _ => {}
@@ -140,35 +140,31 @@ impl Expected {
 
     /// What an auxiliary function switches, in a text or by AUXFUN.
     pub(super) fn insert_auxiliary(&mut self, auxiliary: Auxiliary) {
-        self.again.insert(auxiliary);
-        self.resumes.insert(auxiliary);
+        self.restarts.insert(auxiliary);
         // Under a live tool with functions of its own these are of the main spindle, the axis C.
         let turns = [Auxiliary::Clockwise, Auxiliary::Counterclockwise, Auxiliary::SpindleOff];
-        if self.mills() && self.live_has_own_codes && turns.contains(&auxiliary) {
+        if self.mills() && self.mode.live_has_own_codes && turns.contains(&auxiliary) {
             return;
         }
-        let mut spindle = |turns: Option<Spindle>| {
-            self.spindle.set(turns, Due::Now);
-            self.orientation = None;
-        };
+        let spindle = &mut self.spindle;
         match auxiliary {
-            Auxiliary::Clockwise => spindle(Some(Spindle::Clockwise)),
-            Auxiliary::Counterclockwise => spindle(Some(Spindle::Counterclockwise)),
-            Auxiliary::SpindleOff => spindle(Some(Spindle::Off)),
-            Auxiliary::Live(turns) => spindle(Some(turns)),
-            Auxiliary::Orient => spindle(None),
-            Auxiliary::SpindleRange(range) => self.range = Some(range),
-            Auxiliary::Coolant(code) => self.coolant.set(code, Due::Now),
+            Auxiliary::Clockwise => spindle.turn_now(Some(Spindle::Clockwise)),
+            Auxiliary::Counterclockwise => spindle.turn_now(Some(Spindle::Counterclockwise)),
+            Auxiliary::SpindleOff => spindle.turn_now(Some(Spindle::Off)),
+            Auxiliary::Live(turns) => spindle.turn_now(Some(turns)),
+            Auxiliary::Orient => spindle.turn_now(None),
+            Auxiliary::SpindleRange(range) => spindle.range = Some(range),
+            Auxiliary::Coolant(code) => self.coolant.require(code, Due::Now),
             _ => {}
         }
     }
 
     /// A tool that a block of INSERT or of the settings changes to.
     pub(super) fn insert_tool(&mut self, tool: u32) {
-        self.again = Again::default();
-        self.tool = Some(tool);
-        self.loaded = Some(tool);
+        self.restarts.stop();
+        self.tool.number = Some(tool);
+        self.tool.loaded = Some(tool);
         // A post does not trust it: LOADTL of the same tool changes it again.
-        self.loaded_offset = None;
+        self.tool.loaded_offset = None;
     }
 }

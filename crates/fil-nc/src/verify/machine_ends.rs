@@ -300,7 +300,7 @@ impl<C: Steps> Walk<'_, C> {
     fn take_without_length(&mut self, cl_line: u32, found: &Move) {
         let mut seen = *found;
         if found.modes.length.offset.is_none() {
-            seen.modes.length.offset = self.expected.offset.now;
+            seen.modes.length.offset = self.expected.length.now().flatten();
         }
         self.take(cl_line, &seen);
     }

@@ -6,7 +6,6 @@
 //! What the machine's settings lay down where the CL file leaves it open (when codes
 //! stand, what the last digit is) comes from [`Settings`].
 
-mod again;
 mod ahead;
 mod align;
 mod arc;
@@ -19,6 +18,7 @@ mod cl_path;
 mod clamps;
 mod compensation_plane;
 mod counted;
+mod delayed;
 mod departure;
 mod division;
 mod gap;
@@ -27,11 +27,9 @@ mod hole_live;
 mod hole_out;
 mod hole_tip;
 mod inserted;
-mod lag;
 mod lines;
 mod machine_ends;
 mod modes;
-mod modes_said;
 mod own_switches;
 mod parts;
 mod passing;
@@ -41,6 +39,7 @@ mod rapid_order;
 mod rate;
 mod report;
 mod reposition;
+mod restart;
 mod rotary_rules;
 mod rules;
 mod say;

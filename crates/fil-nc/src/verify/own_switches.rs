@@ -11,8 +11,7 @@ use super::lines::RAPID_PARTS;
 use super::modes::Expected;
 use super::settings::{Due, Settings};
 use super::walk::{LOOK_AHEAD, Walk};
-use super::wanted::Wanted;
-use crate::dialect::{Auxiliary, Function, Numbered, SKIP};
+use crate::dialect::{Function, Numbered, SKIP};
 use crate::interpret::sinumerik_words::{self, Value};
 use crate::motion::{Event, Spindle};
 use crate::text::read_block;
@@ -31,70 +30,39 @@ pub(super) struct OwnSwitches {
     awaited: Vec<String>,
 }
 
-/// What records have switched on and blocks of the settings off.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Resumes {
-    pub(super) spindle: Option<Spindle>,
-    coolant: Option<u32>,
-}
-
-impl Resumes {
-    /// Takes up a step: what a record asks for anew is not that of before.
-    pub(super) fn take(&mut self, wanted: &Wanted) {
-        match wanted {
-            Wanted::Spindle(_) | Wanted::SpindleAgain | Wanted::Orient(_) => self.spindle = None,
-            Wanted::Coolant(_) => self.coolant = None,
-            _ => {}
-        }
-    }
-
-    /// Takes up an auxiliary function of the user's own.
-    pub(super) fn insert(&mut self, auxiliary: Auxiliary) {
-        match auxiliary {
-            Auxiliary::Clockwise
-            | Auxiliary::Counterclockwise
-            | Auxiliary::SpindleOff
-            | Auxiliary::Live(_)
-            | Auxiliary::Orient => self.spindle = None,
-            Auxiliary::Coolant(_) => self.coolant = None,
-            _ => {}
-        }
-    }
-}
-
 impl Expected {
     /// Takes up what the words of a block of the settings switch of spindle and coolant.
     fn take_block(&mut self, line: &[u8], settings: &Settings) {
-        let (spindle, coolant) = (self.turning(), self.coolant.asked());
-        let before = self.resumes;
+        let (spindle, coolant) = (self.turning(), self.coolant.asked().flatten());
+        let before = self.restarts;
         for (letter, value) in switches(line, settings) {
             match letter {
                 b'M' => self.insert_auxiliary(settings.dialect.auxiliary(value as i64)),
                 b'S' => self.insert_speed(value, settings),
                 // Another mode of speed, whose number need not be in the text.
-                _ => self.speed.set(None, Due::Now),
+                _ => self.spindle.speed.set(None, Due::Now),
             }
         }
-        self.resumes = Resumes {
-            spindle: spindle.or(before.spindle).filter(|_| self.turning().is_none()),
-            coolant: coolant.or(before.coolant).filter(|_| self.coolant.asked().is_none()),
-        };
+        let (turns, flows) = (self.turning().is_some(), self.coolant.asked().flatten().is_some());
+        self.restarts.spindle.was_on = spindle.or(before.spindle.was_on).filter(|_| !turns);
+        self.restarts.coolant.was_on = coolant.or(before.coolant.was_on).filter(|_| !flows);
     }
 
     /// How the spindle must turn; `None` where it need not.
     fn turning(&self) -> Option<Spindle> {
-        self.spindle.asked().filter(|turn| *turn != Spindle::Off)
+        self.spindle.turn.asked().filter(|turn| *turn != Spindle::Off)
     }
 
     /// The tool cuts: what blocks of the settings have switched off and no record on again is
     /// missing.
     pub(super) fn resume(&mut self) {
-        let Resumes { spindle, coolant } = std::mem::take(&mut self.resumes);
+        let (spindle, coolant) =
+            (self.restarts.spindle.was_on.take(), self.restarts.coolant.was_on.take());
         if spindle.is_some() {
-            self.spindle.set(spindle, Due::Now);
+            self.spindle.turn.set(spindle, Due::Now);
         }
         if coolant.is_some() {
-            self.coolant.set(coolant, Due::Now);
+            self.coolant.require(coolant, Due::Now);
         }
     }
 }

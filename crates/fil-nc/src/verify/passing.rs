@@ -88,7 +88,7 @@ impl<C: Steps> Walk<'_, C> {
     /// behind the record that does.
     fn is_of_a_later_offset(&self, found: &Move) -> bool {
         found.modes.frame.fixture != self.moved.modes.frame.fixture
-            && self.expected.fixture.is_some_and(|asked| asked != found.modes.frame.fixture)
+            && self.expected.fixture.must.is_some_and(|asked| asked != found.modes.frame.fixture)
     }
 
     /// A record has asked for a work offset in which nothing has moved: where the axes stand in
@@ -96,6 +96,7 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn awaits_offset(&self) -> bool {
         self.expected
             .fixture
+            .must
             .flatten()
             .is_some_and(|asked| self.moved.modes.frame.fixture != Some(asked))
     }

@@ -128,7 +128,8 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn goes_up(&mut self, cl_line: u32, found: &Move) {
         let mut seen = *found;
         if found.modes.frame.fixture == self.moved.modes.frame.fixture {
-            seen.modes.frame.fixture = self.expected.fixture.unwrap_or(found.modes.frame.fixture);
+            seen.modes.frame.fixture =
+                self.expected.fixture.must.unwrap_or(found.modes.frame.fixture);
         }
         self.take(cl_line, &seen);
         self.moved.modes.frame.fixture = found.modes.frame.fixture;

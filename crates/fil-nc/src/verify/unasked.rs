@@ -50,7 +50,11 @@ impl<C: Steps> Walk<'_, C> {
         };
         let begins = found.modes.compensation.side != Compensation::Off
             && self.moved.modes.compensation.side == Compensation::Off;
-        if begins && found.arc.is_none() && self.expected.plane != plane && !self.own.has(line) {
+        if begins
+            && found.arc.is_none()
+            && self.expected.plane.named != plane
+            && !self.own.has(line)
+        {
             return self.find_other_plane(cl_line, found, (plane, line));
         }
         if Some(plane) == self.moved.plane {
@@ -66,7 +70,7 @@ impl<C: Steps> Walk<'_, C> {
     #[cold]
     fn check_other_plane(&mut self, cl_line: u32, found: &Move, (plane, line): (usize, u32)) {
         self.moved.plane = Some(plane);
-        let asked = self.expected.plane == plane;
+        let asked = self.expected.plane.named == plane;
         if asked || self.own.has(line) {
             return;
         }
