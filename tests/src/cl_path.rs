@@ -11,7 +11,7 @@ use std::io::Read;
 use fil_cl::{Options, Reader};
 use fil_nc::forward::Pose;
 use fil_nc::motion::{Compensation, Rate};
-use fil_nc::verify::{self, ClPath, Wanted};
+use fil_nc::verify::{self, ClPath, ExpectedStep};
 
 use crate::path::{Action, Arc, Axis, Hole, Point, Step, ToolPath, Unit};
 
@@ -40,8 +40,8 @@ pub fn cl_path_in(
     for step in ClPath::new(reader, name, [0.0; 3]).in_unit(unit) {
         let verify::Step { line, what } = step.map_err(|diag| diag.to_string())?;
         let parts = match what {
-            Wanted::Arc(arc, rate) => {
-                turns_of(*arc).into_iter().map(|arc| Wanted::Arc(arc.into(), rate)).collect()
+            ExpectedStep::Arc(arc, rate) => {
+                turns_of(*arc).into_iter().map(|arc| ExpectedStep::Arc(arc.into(), rate)).collect()
             }
             other => vec![other],
         };
@@ -53,22 +53,22 @@ pub fn cl_path_in(
     Ok(ToolPath { unit: Some(Unit::Mm), steps })
 }
 
-fn action(what: &Wanted) -> Result<Option<Action>, String> {
+fn action(what: &ExpectedStep) -> Result<Option<Action>, String> {
     Ok(Some(match what {
-        Wanted::Rapid(pose) => Action::Rapid(tip(pose)?),
-        Wanted::Feed(pose, rate) => Action::Feed(tip(pose)?, minute(*rate)),
-        Wanted::Arc(arc, rate) => Action::Arc(self::arc(arc)?, minute(*rate)),
-        Wanted::Hole(hole) => {
+        ExpectedStep::Rapid(pose) => Action::Rapid(tip(pose)?),
+        ExpectedStep::Feed(pose, rate) => Action::Feed(tip(pose)?, minute(*rate)),
+        ExpectedStep::Arc(arc, rate) => Action::Arc(self::arc(arc)?, minute(*rate)),
+        ExpectedStep::Hole(hole) => {
             let [x, y, z] = tip(&hole.start)?;
             let clearance = z + hole.clear.unwrap_or(0.0);
             let hole_at = Hole { at: [x, y], bottom: z - hole.depth, clearance };
             Action::Hole(hole_at, minute(hole.rate))
         }
-        Wanted::Tool { number, .. } => Action::Tool(*number),
-        Wanted::Thread(..) | Wanted::Insert { .. } | Wanted::Unknown { .. } => {
+        ExpectedStep::Tool { number, .. } => Action::Tool(*number),
+        ExpectedStep::Thread(..) | ExpectedStep::Insert { .. } | ExpectedStep::Unknown { .. } => {
             return Err(format!("{what:?} is not covered by this comparison"));
         }
-        Wanted::Compensation(side, _) if *side != Compensation::Off => {
+        ExpectedStep::Compensation(side, _) if *side != Compensation::Off => {
             return Err("cutter compensation is not covered".to_string());
         }
         _ => return Ok(None),

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 use fil_nc::forward::Pose;
-use fil_nc::verify::{Allowed, ClPath, Verdict, Wanted};
+use fil_nc::verify::{Allowed, ClPath, ExpectedStep, Verdict};
 use filpost::Unit;
 use filpost::cl::reader::{Options, Reader};
 use filpost::verify::NcProgram;
@@ -244,18 +244,18 @@ fn steps_of(cl: &[u8]) -> Vec<Step> {
     let reader = Reader::new(cl, "part", Options::default());
     for step in ClPath::new(reader, "part", [0.0; 3]) {
         match step.unwrap().what {
-            Wanted::Rapid(pose) | Wanted::Feed(pose, _) => {
+            ExpectedStep::Rapid(pose) | ExpectedStep::Feed(pose, _) => {
                 let to = in_frame(&pose);
                 if std::mem::replace(&mut at, to) != to {
                     found.push(Step::Line(to));
                 }
             }
-            Wanted::Arc(arc, _) => {
+            ExpectedStep::Arc(arc, _) => {
                 assert!(arc.normal.z.abs() > 0.999_999, "an arc out of X and Y");
                 at = in_frame(&arc.end);
                 found.push(Step::Arc(at, [arc.center.x, arc.center.y], arc.normal.z > 0.0));
             }
-            Wanted::Hole(hole) => {
+            ExpectedStep::Hole(hole) => {
                 let [x, y, _] = in_frame(&hole.start);
                 found.push(Step::Hole([x, y], hole.depth));
             }

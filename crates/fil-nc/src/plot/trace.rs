@@ -7,7 +7,7 @@ use nalgebra::{Point3, Rotation3, Unit};
 use super::sample::{arc_step, shares_of};
 use super::{Change, Extent, InForce, Piece, Point, Stroke, Trace};
 use crate::motion::{Modes, Move, Rate, SpindleModes};
-use crate::verify::{Arc, ClPath, Hole, Wanted};
+use crate::verify::{Arc, ClPath, ExpectedStep, Hole};
 
 /// Chords of arcs leave them by this part of the size of the picture.
 const FINENESS: f64 = 1.0 / 20_000.0;
@@ -165,25 +165,25 @@ pub fn cl_trace(
         let pieces = builder.trace.pieces.len();
         match &step.what {
             // A path of both units would need two scales: the first one is told.
-            Wanted::Metric(metric) if pieces == 0 => builder.trace.inch = !metric,
-            Wanted::Rapid(to) => {
+            ExpectedStep::Metric(metric) if pieces == 0 => builder.trace.inch = !metric,
+            ExpectedStep::Rapid(to) => {
                 builder.draw(Stroke::Rapid, step.line, [to.tip.into()]);
             }
-            Wanted::Feed(to, _) => {
+            ExpectedStep::Feed(to, _) => {
                 builder.draw(Stroke::Feed, step.line, [to.tip.into()]);
             }
-            Wanted::Thread(to, _) => {
+            ExpectedStep::Thread(to, _) => {
                 builder.draw(Stroke::Thread, step.line, [to.tip.into()]);
             }
-            Wanted::Arc(arc, _) => {
+            ExpectedStep::Arc(arc, _) => {
                 builder.draw(Stroke::Arc, step.line, along(arc, tolerance));
             }
-            Wanted::Hole(hole) => {
+            ExpectedStep::Hole(hole) => {
                 let before = *drilling.get_or_insert(builder.pen);
                 drill(&mut builder, hole, before, step.line);
             }
-            Wanted::CycleEnd => drilling = None,
-            Wanted::Tool { number, .. } => builder.change(step.line, *number),
+            ExpectedStep::CycleEnd => drilling = None,
+            ExpectedStep::Tool { number, .. } => builder.change(step.line, *number),
             _ => {}
         }
         if let Some(end) = step.what.end().filter(|_| builder.trace.pieces.len() > pieces) {

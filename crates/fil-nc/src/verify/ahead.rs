@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use fil_diag::Diag;
 
-use super::wanted::Step;
+use super::expected_step::Step;
 
 /// Steps one after the other.
 pub(super) trait Steps: Iterator<Item = Result<Step, Box<Diag>>> {}

@@ -1,11 +1,11 @@
 //! Where path and program part, and how they come together again.
 
 use super::ahead::Steps;
+use super::expected_step::{ExpectedStep, Step};
 use super::lines::{RAPID_PARTS, is_line};
 use super::report::FindingKind;
 use super::say::shape;
-use super::walk::{LOOK_AHEAD, Walk};
-use super::wanted::{Step, Wanted};
+use super::verifier::{LOOK_AHEAD, Verifier};
 use crate::forward::Pose;
 use crate::motion::{Course, Event, INCH, Move};
 
@@ -19,7 +19,7 @@ pub(super) enum Detour {
     Other,
 }
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// Tells whether path and program agree again after leaving out parts of one.
     pub(super) fn detour(&mut self, step: &Step) -> Detour {
         let next = self.nc.get(self.next);
@@ -52,7 +52,7 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// After how many motions or holes of the program a step is made, if at all.
-    pub(super) fn units_left_out(&self, wanted: &Wanted) -> Option<usize> {
+    pub(super) fn units_left_out(&self, wanted: &ExpectedStep) -> Option<usize> {
         let mut index = self.next;
         for units in 1..=LOOK_AHEAD {
             index = self.unit_end(index);
@@ -71,7 +71,7 @@ impl<C: Steps> Walk<'_, C> {
         let mut motions = 0;
         for ahead in 0..4 * LOOK_AHEAD {
             let what = self.cl.peek(ahead)?.what.clone();
-            if matches!(what, Wanted::Tool { .. }) || motions == LOOK_AHEAD {
+            if matches!(what, ExpectedStep::Tool { .. }) || motions == LOOK_AHEAD {
                 return None;
             }
             if what.end().is_some() {
@@ -107,7 +107,7 @@ impl<C: Steps> Walk<'_, C> {
         while ahead < 4 * LOOK_AHEAD
             && let Some(step) = self.cl.peek(ahead)
         {
-            if matches!(step.what, Wanted::Tool { number, .. } if number == tool) {
+            if matches!(step.what, ExpectedStep::Tool { number, .. } if number == tool) {
                 return true;
             }
             ahead += 1;
@@ -116,16 +116,18 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// The events from `index` on begin to do what a step asks for.
-    pub(super) fn fits(&self, index: usize, wanted: &Wanted) -> bool {
+    pub(super) fn fits(&self, index: usize, wanted: &ExpectedStep) -> bool {
         let Some(Event::Move(found)) = self.nc.get(index) else { return false };
         match wanted {
-            Wanted::Rapid(pose) => self.rapid_parts(index, pose).is_some(),
-            Wanted::Feed(pose, _) => is_line(&found, Course::Feed) && self.reaches(&found, pose),
-            Wanted::Thread(pose, _) => {
+            ExpectedStep::Rapid(pose) => self.rapid_parts(index, pose).is_some(),
+            ExpectedStep::Feed(pose, _) => {
+                is_line(&found, Course::Feed) && self.reaches(&found, pose)
+            }
+            ExpectedStep::Thread(pose, _) => {
                 is_line(&found, Course::Thread) && self.reaches(&found, pose)
             }
-            Wanted::Arc(arc, _) => found.arc.is_some() && self.reaches(&found, &arc.end),
-            Wanted::Hole(hole) => self.is_over_hole(index, hole),
+            ExpectedStep::Arc(arc, _) => found.arc.is_some() && self.reaches(&found, &arc.end),
+            ExpectedStep::Hole(hole) => self.is_over_hole(index, hole),
             _ => false,
         }
     }
@@ -136,12 +138,12 @@ impl<C: Steps> Walk<'_, C> {
         if self.units_differ(step.line, &first, &pose) {
             return;
         }
-        if let Wanted::Hole(hole) = &step.what
+        if let ExpectedStep::Hole(hole) = &step.what
             && self.hole_elsewhere(step.line, hole)
         {
             return;
         }
-        let rapid = matches!(step.what, Wanted::Rapid(_));
+        let rapid = matches!(step.what, ExpectedStep::Rapid(_));
         let parts = if rapid { self.rapids_ahead().max(1) } else { 1 };
         let nearest = |index: &usize| match self.nc.get(*index) {
             Some(Event::Move(found)) => self.gap(&found.to, &pose).tip,

@@ -6,11 +6,11 @@ use nalgebra::{Point3, Vector3};
 
 use super::ahead::Steps;
 use super::between::Asked;
+use super::expected_step::{Arc, ExpectedStep, Step};
 use super::report::FindingKind;
 use super::say::{PLANES, short};
 use super::settings::Quantity;
-use super::walk::Walk;
-use super::wanted::{Arc, Step, Wanted};
+use super::verifier::Verifier;
 use crate::forward::Pose;
 use crate::motion::{self, Course, Move, Position, Rate};
 
@@ -31,7 +31,7 @@ struct Parts {
     lines: bool,
 }
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// Takes the blocks that make an arc; false when they don't.
     pub(super) fn arc(&mut self, cl_line: u32, arc: &Arc, rate: Option<Rate>) -> bool {
         let Some(parts) = self.arc_parts(arc) else {
@@ -310,7 +310,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// Says how an arc block differs from the arc it stands for.
     pub(super) fn say_arc(&mut self, step: &Step, found: &Move) {
-        let (Wanted::Arc(arc, _), Some(part)) = (&step.what, &found.arc) else { return };
+        let (ExpectedStep::Arc(arc, _), Some(part)) = (&step.what, &found.arc) else { return };
         let frame = self.settings.forward.frame_of(&found.to);
         let wanted = frame.turn.transpose() * arc.normal;
         let along = wanted[part.normal].abs() > 1.0 - PARALLEL;

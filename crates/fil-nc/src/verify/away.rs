@@ -9,7 +9,7 @@ use super::lines::RAPID_PARTS;
 use super::report::FindingKind;
 use super::say::short;
 use super::settings::Settings;
-use super::walk::{Fact, STILL, Walk};
+use super::verifier::{Fact, STILL, Verifier};
 use crate::dialect::Habit;
 use crate::motion::{Course, Event, Move, Position};
 
@@ -20,7 +20,7 @@ impl Settings<'_> {
     }
 }
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// The rotary axes turn in this motion, and X, Y and Z stay.
     fn only_turns(&self, found: &Move) -> bool {
         let at = self.at_as(found);

@@ -1,15 +1,15 @@
 //! What stands between the motions: dwells, texts, functions, the end.
 
 use super::ahead::Steps;
+use super::expected_step::{Effect, End, Step};
 use super::report::{FindingKind, Unverified};
 use super::say::short;
 use super::settings::Quantity;
-use super::walk::Walk;
-use super::wanted::{Effect, End, Step};
+use super::verifier::Verifier;
 use crate::dialect::Auxiliary;
 use crate::motion::Event;
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// A dwell in seconds, or in turns of the spindle.
     pub(super) fn dwell(&mut self, cl_line: u32, wanted: Option<f64>, turning: Option<f64>) {
         self.pass(cl_line);

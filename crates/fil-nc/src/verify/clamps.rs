@@ -4,7 +4,7 @@
 
 use super::report::{Finding, FindingKind, Report};
 use super::settings::Settings;
-use super::walk::STILL;
+use super::verifier::STILL;
 use crate::motion::{Course, Event, Move};
 
 /// What the codes of a program have said.

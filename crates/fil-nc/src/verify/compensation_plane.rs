@@ -8,7 +8,7 @@ use super::modes::Expected;
 use super::report::FindingKind;
 use super::say::PLANES;
 use super::settings::Settings;
-use super::walk::Walk;
+use super::verifier::Verifier;
 use crate::motion::{DRILLED, Modes, Move};
 
 /// The least cosine between directions that are one.
@@ -63,7 +63,7 @@ impl Expected {
     }
 }
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// The cutter is compensated in a plane that its axis is square to, as the control sees it; under
     /// a tool along Z also in the one that the record names, where the part stands as the machine.
     pub(super) fn check_square_to_compensation(&mut self, cl_line: u32, found: &Move) {

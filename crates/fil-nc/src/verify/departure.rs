@@ -3,13 +3,13 @@
 use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::{Fact, Walk};
+use super::verifier::{Fact, Verifier};
 use crate::motion::Move;
 
 /// What a last digit may add to a move, mm.
 const DIGITS: f64 = 0.01;
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// A block whose start and end are known goes no farther than the machine says.
     pub(super) fn check_departure(&mut self, cl_line: u32, found: &Move) {
         let Some(most) = self.settings.most_departure(self.limits.metric) else { return };

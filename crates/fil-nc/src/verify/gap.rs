@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 
 use super::settings::{Settings, Tolerances};
-use super::walk::STILL;
+use super::verifier::STILL;
 use crate::forward::Pose;
 use crate::motion::Position;
 

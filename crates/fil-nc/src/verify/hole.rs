@@ -3,12 +3,12 @@
 use fil_machine::cycle_kind::CycleKind;
 
 use super::ahead::Steps;
+use super::expected_step::Hole;
 use super::hole_tip::FromHole;
 use super::report::FindingKind;
 use super::say::short;
 use super::settings::Quantity;
-use super::walk::{STILL, Walk};
-use super::wanted::Hole;
+use super::verifier::{STILL, Verifier};
 use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Spindle};
 
@@ -29,7 +29,7 @@ pub(super) struct Levels {
     single: bool,
 }
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// Takes the events that make a hole; false when the next ones make none here.
     pub(super) fn hole(&mut self, cl_line: u32, hole: &Hole) -> bool {
         if !self.is_over_hole(self.next, hole) {

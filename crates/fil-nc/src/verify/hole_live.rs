@@ -7,11 +7,11 @@
 use nalgebra::Vector3;
 
 use super::ahead::Steps;
+use super::expected_step::Hole;
 use super::gap::REACHED;
 use super::hole::Levels;
 use super::hole_tip::{DUST, FromHole, Kept, MOST, doubt};
-use super::walk::Walk;
-use super::wanted::Hole;
+use super::verifier::Verifier;
 use crate::motion::{Course, Event, Move, Position};
 
 /// Which axes are known, in the order in which they are said for a hole.
@@ -35,8 +35,8 @@ struct Live {
     reach: f64,
 }
 
-impl<C: Steps> Walk<'_, C> {
-    /// Says the next motions as those of a hole along Z, until [`Walk::say_again`]; `plunge` is
+impl<C: Steps> Verifier<'_, C> {
+    /// Says the next motions as those of a hole along Z, until [`Verifier::say_again`]; `plunge` is
     /// the one that drills.
     pub(super) fn say_live(&mut self, hole: &Hole, levels: Levels, plunge: &Move) -> Kept {
         let live = self.live_hole(hole, levels, plunge);

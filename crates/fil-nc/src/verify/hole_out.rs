@@ -4,10 +4,10 @@ use fil_machine::cycle_kind::CycleKind;
 use fil_machine::locations::CycleBoreOut;
 
 use super::ahead::Steps;
+use super::expected_step::Hole;
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::Walk;
-use super::wanted::Hole;
+use super::verifier::Verifier;
 use crate::motion::{Course, Spindle};
 
 /// How the tool comes out of a hole.
@@ -20,7 +20,7 @@ enum Out {
     Any,
 }
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// The tool comes out of a hole, to the level where it rests before the next.
     pub(super) fn leave(
         &mut self,

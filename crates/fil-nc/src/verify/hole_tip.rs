@@ -10,10 +10,10 @@ use std::f64::consts::PI;
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use super::ahead::Steps;
+use super::expected_step::Hole;
 use super::hole::Levels;
 use super::report::FindingKind;
-use super::walk::{STILL, Walk};
-use super::wanted::Hole;
+use super::verifier::{STILL, Verifier};
 use crate::forward::Frame;
 use crate::motion::{Course, Event, Move, Position};
 
@@ -140,7 +140,7 @@ impl FromHole {
     }
 }
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// A motion over a hole in positions of the machine's axes, with the rotary axes
     /// where the tool exactly lies along the hole.
     pub(super) fn in_axes(&self, found: &Move, hole: &Hole) -> Move {
@@ -330,7 +330,7 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
-    /// Says the next motions under tool-tip control in axes, until [`Walk::say_again`].
+    /// Says the next motions under tool-tip control in axes, until [`Verifier::say_again`].
     pub(super) fn say_in_axes(&mut self, hole: &Hole, levels: Levels) -> Option<Kept> {
         if self.settings.is_mill_turn() {
             let plunge = self.plunge(self.next).filter(|to| self.is_said_anew(to, hole))?;

@@ -4,7 +4,7 @@ use super::ahead::Steps;
 use super::delayed::DelayedMode;
 use super::modes::Expected;
 use super::settings::{Due, Settings};
-use super::walk::Walk;
+use super::verifier::Verifier;
 use crate::dialect::{Auxiliary, Function, Role};
 use crate::interpret::sinumerik_words::{self, Value};
 use crate::motion::{Compensation, Speed, Spindle};
@@ -13,7 +13,7 @@ use crate::text::{Block, read_block};
 /// The T word of a turning tool is its number times this, and its offset.
 const TOOLS_STEP: i64 = 100;
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// The auxiliary functions among words of the user's own must be there.
     pub(super) fn ask_words(&mut self, cl_line: u32, text: &str) {
         let Ok(block) = read_block(text.as_bytes(), "POSTN", 1) else { return };

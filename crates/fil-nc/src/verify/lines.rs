@@ -7,7 +7,7 @@ use super::between::Asked;
 use super::rapid_lean::{Leg, Lie, UPRIGHT};
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::{Fact, STILL, Walk};
+use super::verifier::{Fact, STILL, Verifier};
 use super::zones;
 use fil_machine::locations::LinearMethod;
 
@@ -21,7 +21,7 @@ pub(super) const AROUND: f64 = 3e-3;
 /// Most blocks of one rapid.
 pub(super) const RAPID_PARTS: usize = 4;
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// A rapid in one block or in parts.
     pub(super) fn rapid(&mut self, cl_line: u32, pose: &Pose) -> bool {
         if self.stands_at(pose) {

@@ -1,15 +1,15 @@
 //! Motions whose end the settings of the machine give or correct.
 
 use super::ahead::Steps;
+use super::expected_step::{ExpectedStep, Step, TableWay};
 use super::lines::{AROUND, RAPID_PARTS};
 use super::rapid_lean::Leg;
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::{Fact, STILL, Walk};
-use super::wanted::{Step, TableWay, Wanted};
+use super::verifier::{Fact, STILL, Verifier};
 use crate::motion::{Course, Event, Move, Position};
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// A rapid to a position of the linear axes, mm; the others stay, and the rotary axes.
     pub(super) fn go_to_machine(&mut self, cl_line: u32, to: [Option<f64>; 3]) {
         self.report.compared += 1;
@@ -308,11 +308,11 @@ impl<C: Steps> Walk<'_, C> {
     /// An arc as the settings of the machine correct it; `None` where they leave it.
     pub(super) fn corrected(&mut self, step: &Step) -> Option<Step> {
         let before = self.memory.corrected_end.take();
-        let Wanted::Arc(arc, rate) = &step.what else { return None };
+        let ExpectedStep::Arc(arc, rate) = &step.what else { return None };
         let mut corrected = arc.from(before.filter(|[end, _]| *end == arc.start).map(|[_, at]| at));
         corrected.end.tip = self.settings.arc_end(&corrected, self.limits.metric);
         self.memory.corrected_end = Some([arc.end.tip, corrected.end.tip]);
         (corrected != **arc)
-            .then(|| Step { what: Wanted::Arc(corrected.into(), *rate), ..step.clone() })
+            .then(|| Step { what: ExpectedStep::Arc(corrected.into(), *rate), ..step.clone() })
     }
 }

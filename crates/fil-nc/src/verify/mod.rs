@@ -1,7 +1,7 @@
 //! Back-check: does an NC program do what the CL file asks for?
 //!
 //! [`ClPath`] reads the CL file without the post, the interpreter reads the program
-//! without the writer; `walk` goes along both at once, `window` keeps what it looks
+//! without the writer; `verifier` goes along both at once, `window` keeps what it looks
 //! ahead, `align` finds where they part.
 //! What the machine's settings lay down where the CL file leaves it open (when codes
 //! stand, what the last digit is) comes from [`Settings`].
@@ -21,6 +21,8 @@ mod counted;
 mod delayed;
 mod departure;
 mod division;
+mod event_filter;
+mod expected_step;
 mod gap;
 mod hole;
 mod hole_live;
@@ -28,9 +30,9 @@ mod hole_out;
 mod hole_tip;
 mod inserted;
 mod lines;
+mod machine_blocks;
 mod machine_ends;
 mod modes;
-mod own_switches;
 mod parts;
 mod passing;
 mod programs;
@@ -44,7 +46,6 @@ mod rotary_rules;
 mod rules;
 mod say;
 mod settings;
-mod sift;
 mod statements;
 mod thread;
 mod thread_gauge;
@@ -54,8 +55,7 @@ mod tools;
 mod turning;
 mod turning_settings;
 mod unasked;
-mod walk;
-mod wanted;
+mod verifier;
 mod window;
 mod zones;
 
@@ -73,10 +73,10 @@ use blocks::OwnBlocks;
 
 pub use between::{Between, Peak};
 pub use cl_path::{ClPath, FrameWords, ignored_words, knows_word};
+pub use expected_step::{Arc, CoolantKind, Effect, End, ExpectedStep, Hole, Step, WholeThread};
 pub use programs::{Programs, Unfollowed, compare_programs, compare_words};
 pub use report::{Deviation, Finding, FindingKind, Report, Unverified, Verdict};
 pub use settings::{Due, Quantity, Settings, Tolerances};
-pub use wanted::{Arc, CoolantKind, Effect, End, Hole, Step, Wanted, WholeThread};
 
 /// The inputs of a back-check.
 pub struct Check<'a> {
@@ -131,11 +131,11 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let (around, marks) = (settings.blocks_around_changes(), &settings.dialect.text.marks);
     let own = OwnBlocks::new(nc, marks, &settings.own_blocks(), &around)?;
     let watch = Watch::new(check.allowed.between);
-    let mut walk = walk::Walk::new(path, check.events, own, &settings, watch);
-    walk.begin_with_blocks(check.skips_blocks);
+    let mut verifier = verifier::Verifier::new(path, check.events, own, &settings, watch);
+    verifier.begin_with_blocks(check.skips_blocks);
     let of_machine = check.commons.allowed_offsets().iter().filter_map(|name| work_offset(name));
-    walk.expected.allow_offsets(check.allowed.offsets.into_iter().chain(of_machine).collect());
-    let report = walk.all()?;
+    verifier.expected.allow_offsets(check.allowed.offsets.into_iter().chain(of_machine).collect());
+    let report = verifier.all()?;
     refuse_another_part(&report)?;
     Ok(report)
 }

@@ -9,10 +9,10 @@ mod rules;
 use super::compensation_plane::MeantPlane;
 use super::counted::Counted;
 use super::delayed::{DelayedMode, Moved};
+use super::expected_step::{CoolantKind, Effect, ExpectedStep};
 use super::report::FindingKind;
 use super::restart::Restarts;
 use super::settings::{Due, Settings};
-use super::wanted::{CoolantKind, Effect, Wanted};
 use crate::dialect::Auxiliary;
 use crate::motion::{Compensation, DRILLED, Speed, Spindle};
 
@@ -199,42 +199,42 @@ impl Expected {
     }
 
     /// Takes up what a step switches.
-    pub(super) fn take(&mut self, wanted: &Wanted, settings: &Settings) {
+    pub(super) fn take(&mut self, wanted: &ExpectedStep, settings: &Settings) {
         self.restarts.take(wanted);
         match wanted {
-            Wanted::Plane(normal) => self.plane.named = *normal,
-            Wanted::Spindle(Some(Spindle::Off)) => {
+            ExpectedStep::Plane(normal) => self.plane.named = *normal,
+            ExpectedStep::Spindle(Some(Spindle::Off)) => {
                 self.flush();
                 self.spindle.turn.set(settings.spindle(Some(Spindle::Off)), Due::Now);
                 self.spindle.orientation = None;
             }
-            Wanted::Spindle(turn) => {
+            ExpectedStep::Spindle(turn) => {
                 self.spindle.last_turn = turn.or_else(|| settings.spindle(None));
                 self.turn_spindle(*turn, settings);
             }
-            Wanted::Counts(side) => self.count(*side, settings),
-            Wanted::OfSide(wanted) if settings.dialect.turning.counted.is_chosen() => {
+            ExpectedStep::Counts(side) => self.count(*side, settings),
+            ExpectedStep::OfSide(wanted) if settings.dialect.turning.counted.is_chosen() => {
                 self.take(wanted, settings);
             }
-            Wanted::SpindleAgain => self.turn_spindle(self.spindle.last_turn, settings),
-            Wanted::SpindleRange(range) => {
+            ExpectedStep::SpindleAgain => self.turn_spindle(self.spindle.last_turn, settings),
+            ExpectedStep::SpindleRange(range) => {
                 self.spindle.range = settings.spindle_range(*range);
                 self.naming.range = true;
             }
-            Wanted::Speed(speed) => self.take_speed(*speed, settings),
-            Wanted::SpeedLimit(limit) if settings.limit_comes_with_surface() => {
+            ExpectedStep::Speed(speed) => self.take_speed(*speed, settings),
+            ExpectedStep::SpeedLimit(limit) if settings.limit_comes_with_surface() => {
                 self.naming.next_limit = Some(*limit);
                 if matches!(self.spindle.speed.asked(), Some(Speed::Surface(_))) {
                     self.spindle.speed_limit = Some(self.naming.next_limit);
                 }
             }
-            Wanted::SpeedLimit(limit) => self.spindle.speed_limit = Some(Some(*limit)),
-            Wanted::Orient(angle) => {
+            ExpectedStep::SpeedLimit(limit) => self.spindle.speed_limit = Some(Some(*limit)),
+            ExpectedStep::Orient(angle) => {
                 self.spindle.turn.set(None, Due::Now);
                 self.spindle.speed.flush();
                 self.spindle.orientation = *angle;
             }
-            Wanted::Coolant(kind) => {
+            ExpectedStep::Coolant(kind) => {
                 if *kind == CoolantKind::Off {
                     self.flush();
                 }
@@ -243,7 +243,7 @@ impl Expected {
                     self.coolant.require(Some(code).filter(|_| *kind != CoolantKind::Off), due);
                 }
             }
-            Wanted::Compensation(side, offset) => {
+            ExpectedStep::Compensation(side, offset) => {
                 if *side != Compensation::Off {
                     self.plane.named = DRILLED;
                 }
@@ -270,21 +270,21 @@ impl Expected {
                 self.compensation
                     .require((*side, offset), settings.compensation_due(self.mode.mills));
             }
-            Wanted::Mills(mills) if settings.is_mill_turn() => self.change_spindle(*mills),
-            Wanted::Stop { .. } | Wanted::End(_) => self.flush(),
-            Wanted::Insert { text, .. } => {
+            ExpectedStep::Mills(mills) if settings.is_mill_turn() => self.change_spindle(*mills),
+            ExpectedStep::Stop { .. } | ExpectedStep::End(_) => self.flush(),
+            ExpectedStep::Insert { text, .. } => {
                 settings.blocks_of_text(text).for_each(|text| self.insert(text, settings));
             }
-            Wanted::Words(text) | Wanted::Repeated(text) => self.insert(text, settings),
-            Wanted::WorkOffset(number) => {
+            ExpectedStep::Words(text) | ExpectedStep::Repeated(text) => self.insert(text, settings),
+            ExpectedStep::WorkOffset(number) => {
                 self.fixture.must = settings.work_offset(*number).map(Some);
                 self.fixture.is_asked = true;
             }
-            Wanted::Fixture(code) => {
+            ExpectedStep::Fixture(code) => {
                 self.fixture.must = Some(Some(*code));
                 self.fixture.is_asked = true;
             }
-            Wanted::Unknown {
+            ExpectedStep::Unknown {
                 effect: Effect::AnyWords | Effect::Path | Effect::Doubtful(_),
                 ..
             } => {
@@ -292,12 +292,14 @@ impl Expected {
                 (self.spindle.speed_limit, self.spindle.range) = (None, None);
                 self.naming.has_speed = true;
             }
-            Wanted::Unknown { effect: Effect::WordsOrOffset, .. } => self.fixture.must = None,
-            Wanted::Unknown { effect: Effect::Words, .. } if settings.chooses_offsets_by_word() => {
+            ExpectedStep::Unknown { effect: Effect::WordsOrOffset, .. } => self.fixture.must = None,
+            ExpectedStep::Unknown { effect: Effect::Words, .. }
+                if settings.chooses_offsets_by_word() =>
+            {
                 self.fixture.must = None;
             }
-            Wanted::Unknown { effect: Effect::Auxiliary, .. } => self.spindle.range = None,
-            Wanted::Auxiliary(code) => {
+            ExpectedStep::Unknown { effect: Effect::Auxiliary, .. } => self.spindle.range = None,
+            ExpectedStep::Auxiliary(code) => {
                 self.spindle.range = None;
                 let auxiliary = settings.dialect.auxiliary(i64::from(*code));
                 if settings.has_edges() && *code == AXIS_OF_SINUMERIK {

@@ -10,7 +10,7 @@ use super::division::{Division, End, Turning};
 use super::lines::is_line;
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::Walk;
+use super::verifier::Verifier;
 use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Position, Rate};
 
@@ -62,7 +62,7 @@ struct Parts {
     faults: Vec<(u32, Fault)>,
 }
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// Takes the blocks that make a line, when all of them end on it.
     pub(super) fn parts(&mut self, cl_line: u32, pose: &Pose, rate: Option<Rate>) -> bool {
         self.parts_of(cl_line, (pose, 0.0), rate)

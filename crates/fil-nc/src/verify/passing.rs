@@ -1,12 +1,12 @@
 //! Events that no step asks for, which the walk passes over.
 
 use super::ahead::Steps;
+use super::expected_step::{ExpectedStep, Step};
 use super::report::FindingKind;
-use super::walk::{Fact, STILL, Walk};
-use super::wanted::{Step, Wanted};
+use super::verifier::{Fact, STILL, Verifier};
 use crate::motion::{Course, Event, Move};
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// Passes over events that no step asks for: motions to points of the machine,
     /// blocks of the settings, ways of no length. Gives the motion that comes next, when
     /// it is one.
@@ -51,7 +51,7 @@ impl<C: Steps> Walk<'_, C> {
         self.nc.look(self.next, goes_on) == Some(true)
     }
 
-    /// As [`Walk::pass`], up to a motion to a point of the machine, which may be asked for.
+    /// As [`Verifier::pass`], up to a motion to a point of the machine, which may be asked for.
     pub(super) fn pass_still(&mut self, cl_line: u32) {
         loop {
             self.pass_own();
@@ -104,7 +104,9 @@ impl<C: Steps> Walk<'_, C> {
     /// The CL file stays where the tool is, and the program goes to a point of the machine, for
     /// which a later record may ask.
     pub(super) fn rests_before_machine(&mut self, step: &Step) -> bool {
-        let (Wanted::Rapid(pose) | Wanted::Feed(pose, _)) = &step.what else { return false };
+        let (ExpectedStep::Rapid(pose) | ExpectedStep::Feed(pose, _)) = &step.what else {
+            return false;
+        };
         let goes_away =
             |walk: &Self| walk.next_move().is_some_and(|found| found.course == Course::Machine);
         if goes_away(self) {

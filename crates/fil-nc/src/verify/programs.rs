@@ -13,11 +13,11 @@ use fil_machine::Commons;
 
 use super::Allowed;
 use super::between::Blocks;
+use super::event_filter::{EventFilter, Watcher};
 use super::report::{Finding, FindingKind, Report, Unverified};
 use super::rules::Rules;
 use super::say::{sense, short, spell_rate, way};
 use super::settings::Settings;
-use super::sift::{Sift, Watcher};
 use super::window::Window;
 use crate::diff;
 use crate::events::Events;
@@ -61,8 +61,8 @@ pub fn compare_programs(programs: Programs<'_>) -> Result<Report, Unfollowed> {
     let settings = Settings::new(commons, allowed.tolerance).map_err(Unfollowed::Found)?;
     let rules = Rules::new(&settings);
     let mut pair = Pair {
-        wanted: Window::new(Sift::new(reference, Count::default())),
-        found: Window::new(Sift::new(found, Looks { rules, blocks })),
+        wanted: Window::new(EventFilter::new(reference, Count::default())),
+        found: Window::new(EventFilter::new(found, Looks { rules, blocks })),
         tolerance: allowed.tolerance.unwrap_or(0.0) + DUST,
         report: Report::default(),
     };
@@ -170,8 +170,8 @@ fn block(nc_line: Option<u32>, message: String) -> Finding {
 }
 
 struct Pair<'a> {
-    wanted: Window<Sift<'a, Count>>,
-    found: Window<Sift<'a, Looks>>,
+    wanted: Window<EventFilter<'a, Count>>,
+    found: Window<EventFilter<'a, Looks>>,
     tolerance: f64,
     report: Report,
 }

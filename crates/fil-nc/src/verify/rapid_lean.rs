@@ -6,7 +6,7 @@ use fil_machine::axis_chain::Carries;
 
 use super::ahead::Steps;
 use super::report::FindingKind;
-use super::walk::{Fact, STILL, Walk};
+use super::verifier::{Fact, STILL, Verifier};
 use crate::motion::{Course, Move, Position};
 
 /// Directions are one where the cosine between them is less than this below 1.
@@ -45,7 +45,7 @@ pub(super) enum Leg {
 /// The tool along Z.
 pub(super) const UPRIGHT: Lie = Lie::Along { axis: 2, up: 1.0 };
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// How the tool lies where a rapid begins that has this part, and where it ends.
     pub(super) fn lie(&self, part: &Move, end: &Position, leg: Leg) -> Lie {
         let is_along_z = part.to.names_tip() || end.names_tip() || self.settings.is_mill_turn();

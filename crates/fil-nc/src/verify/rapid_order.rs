@@ -9,7 +9,7 @@ use super::ahead::Steps;
 use super::between::way::Way;
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::{Fact, STILL, Walk};
+use super::verifier::{Fact, STILL, Verifier};
 use crate::forward::Pose;
 use crate::motion::{Move, Position};
 
@@ -23,7 +23,7 @@ const SMALL_TURN: f64 = 0.01;
 /// A tool whose axis has more than this along Z is an axial one.
 const AXIAL: f64 = 0.5;
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// Looks at a part of a rapid that ends elsewhere than the rapid does, on a lathe. Where it is not
     /// known where the part begins, a point of the machine has brought the tool away.
     pub(super) fn check_order_on_lathe(&mut self, cl_line: u32, part: &Move, end: (&Move, &Pose)) {

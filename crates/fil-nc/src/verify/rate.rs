@@ -3,11 +3,11 @@
 use nalgebra::Vector3;
 
 use super::ahead::Steps;
+use super::expected_step::Hole;
 use super::report::FindingKind;
 use super::say::{short, spell_rate};
 use super::settings::Quantity;
-use super::walk::{Fact, Walk};
-use super::wanted::Hole;
+use super::verifier::{Fact, Verifier};
 use crate::dialect::{Amount, Family, Habit};
 use crate::motion::{Compensation, Course, Move, Position, Rate, Speed, unit};
 
@@ -20,7 +20,7 @@ const STEPS: u32 = 64;
 /// A tip that goes less than this stands, mm: the feed of the CL file says nothing then.
 const STANDS: f64 = 1e-3;
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// Compares the feed of a motion from a position.
     pub(super) fn check_rate(
         &mut self,

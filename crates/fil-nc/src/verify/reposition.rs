@@ -15,7 +15,7 @@ use super::rapid_lean::{Leg, Lie};
 use super::report::FindingKind;
 use super::say::short;
 use super::settings::Settings;
-use super::walk::Walk;
+use super::verifier::Verifier;
 use crate::forward::Pose;
 use crate::motion::{Course, Event, Modes, Move, Position, Rate, Spindle, unit};
 
@@ -96,7 +96,7 @@ impl Settings<'_> {
     }
 }
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// Takes the blocks of a way out and back, with the part of the line before it; false
     /// when none comes before the end of the line.
     pub(super) fn repositions(&mut self, cl_line: u32, pose: &Pose, rate: Option<Rate>) -> bool {

@@ -3,7 +3,7 @@
 //! of the settings switch off may stay off until the tool cuts; then a record after the change has
 //! asked for it again, or it is missing.
 
-use super::wanted::{CoolantKind, Wanted};
+use super::expected_step::{CoolantKind, ExpectedStep};
 use crate::dialect::Auxiliary;
 use crate::motion::Spindle;
 
@@ -31,20 +31,20 @@ pub(super) struct Restarts {
 
 impl Restarts {
     /// Takes up a step.
-    pub(super) fn take(&mut self, wanted: &Wanted) {
+    pub(super) fn take(&mut self, wanted: &ExpectedStep) {
         match wanted {
-            Wanted::Spindle(turn) => self.spindle = by_record(*turn != Some(Spindle::Off)),
-            Wanted::SpindleAgain => self.spindle = by_record(true),
-            Wanted::Orient(_) => self.spindle.was_on = None,
-            Wanted::Coolant(kind) => self.coolant = by_record(*kind != CoolantKind::Off),
+            ExpectedStep::Spindle(turn) => self.spindle = by_record(*turn != Some(Spindle::Off)),
+            ExpectedStep::SpindleAgain => self.spindle = by_record(true),
+            ExpectedStep::Orient(_) => self.spindle.was_on = None,
+            ExpectedStep::Coolant(kind) => self.coolant = by_record(*kind != CoolantKind::Off),
             // Words of the user's own may be a stop.
-            Wanted::Tool { .. }
-            | Wanted::Stop { .. }
-            | Wanted::Insert { .. }
-            | Wanted::Words(_)
-            | Wanted::Repeated(_)
-            | Wanted::Auxiliary(_)
-            | Wanted::Unknown { .. } => self.stop(),
+            ExpectedStep::Tool { .. }
+            | ExpectedStep::Stop { .. }
+            | ExpectedStep::Insert { .. }
+            | ExpectedStep::Words(_)
+            | ExpectedStep::Repeated(_)
+            | ExpectedStep::Auxiliary(_)
+            | ExpectedStep::Unknown { .. } => self.stop(),
             _ => {}
         }
     }

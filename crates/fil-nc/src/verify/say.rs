@@ -1,10 +1,10 @@
 //! Findings in words.
 
 use super::ahead::Steps;
+use super::expected_step::{ExpectedStep, Step};
 use super::gap::Gap;
 use super::report::FindingKind;
-use super::walk::Walk;
-use super::wanted::{Step, Wanted};
+use super::verifier::Verifier;
 use crate::decimals;
 use crate::forward::Pose;
 use crate::motion::{Arc, Course, Move, Rate};
@@ -15,25 +15,29 @@ pub(super) const PLANES: [&str; 3] = ["YZ", "ZX", "XY"];
 /// What a gap is off by, in millionths, so that two can be compared.
 pub(super) type Shape = ([f64; 3], Option<f64>);
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// Says that a motion is of another kind than the step.
     pub(super) fn say_way(&mut self, step: &Step, found: &Move) {
         let way = (found.course, found.arc.is_some());
         let what = self.spell_move(found);
         let (kind, should) = match (&step.what, way) {
-            (Wanted::Rapid(_), (Course::Rapid, _)) => return,
-            (Wanted::Rapid(_), (Course::Feed, _)) => (FindingKind::FeedForRapid, "a rapid"),
-            (Wanted::Feed(..), (Course::Feed, false)) => return,
-            (Wanted::Feed(..), (Course::Rapid, _)) => (FindingKind::RapidForFeed, "a line at feed"),
-            (Wanted::Feed(..), (Course::Feed, true)) => (FindingKind::Arc, "a straight line"),
-            (Wanted::Thread(..), (Course::Thread, _)) => return,
-            (Wanted::Thread(..), (Course::Rapid, _)) => {
+            (ExpectedStep::Rapid(_), (Course::Rapid, _)) => return,
+            (ExpectedStep::Rapid(_), (Course::Feed, _)) => (FindingKind::FeedForRapid, "a rapid"),
+            (ExpectedStep::Feed(..), (Course::Feed, false)) => return,
+            (ExpectedStep::Feed(..), (Course::Rapid, _)) => {
+                (FindingKind::RapidForFeed, "a line at feed")
+            }
+            (ExpectedStep::Feed(..), (Course::Feed, true)) => (FindingKind::Arc, "a straight line"),
+            (ExpectedStep::Thread(..), (Course::Thread, _)) => return,
+            (ExpectedStep::Thread(..), (Course::Rapid, _)) => {
                 (FindingKind::RapidForFeed, "a thread pass")
             }
-            (Wanted::Thread(..), _) => (FindingKind::Thread, "a thread pass"),
-            (Wanted::Arc(..), (Course::Rapid, _)) => (FindingKind::RapidForFeed, "an arc at feed"),
-            (Wanted::Arc(..), (_, false)) => (FindingKind::Arc, "an arc"),
-            (Wanted::Arc(..), _) => return self.say_arc(step, found),
+            (ExpectedStep::Thread(..), _) => (FindingKind::Thread, "a thread pass"),
+            (ExpectedStep::Arc(..), (Course::Rapid, _)) => {
+                (FindingKind::RapidForFeed, "an arc at feed")
+            }
+            (ExpectedStep::Arc(..), (_, false)) => (FindingKind::Arc, "an arc"),
+            (ExpectedStep::Arc(..), _) => return self.say_arc(step, found),
             (_, (Course::Thread, _)) => (FindingKind::Thread, "a motion without lead"),
             _ => return,
         };
@@ -69,15 +73,15 @@ impl<C: Steps> Walk<'_, C> {
         self.find(FindingKind::Position, Some(cl_line), Some(found.line), message);
     }
 
-    pub(super) fn spell_step(&self, wanted: &Wanted) -> String {
+    pub(super) fn spell_step(&self, wanted: &ExpectedStep) -> String {
         let Some(pose) = wanted.end() else { return String::new() };
         let point = self.settings.forward.frame_of(&self.at).linear(pose.tip);
         let [x, y, z] = point.map(short);
         match wanted {
-            Wanted::Rapid(_) => format!("rapid to X{x} Y{y} Z{z}"),
-            Wanted::Arc(..) => format!("arc to X{x} Y{y} Z{z}"),
-            Wanted::Hole(_) => format!("hole at X{x} Y{y}"),
-            Wanted::Thread(..) => format!("thread pass to X{x} Y{y} Z{z}"),
+            ExpectedStep::Rapid(_) => format!("rapid to X{x} Y{y} Z{z}"),
+            ExpectedStep::Arc(..) => format!("arc to X{x} Y{y} Z{z}"),
+            ExpectedStep::Hole(_) => format!("hole at X{x} Y{y}"),
+            ExpectedStep::Thread(..) => format!("thread pass to X{x} Y{y} Z{z}"),
             _ => format!("line at feed to X{x} Y{y} Z{z}"),
         }
     }

@@ -2,35 +2,36 @@
 
 use fil_cl::{Record, Vocabulary, Word, WordId, words as w};
 
-use super::wanted::{CoolantKind, SpindleRange, Wanted};
+use super::expected_step::{CoolantKind, ExpectedStep, SpindleRange};
 use crate::motion::{Compensation, FOOT, Speed, Spindle};
 
-pub(super) fn spindle(record: &Record) -> Vec<Wanted> {
+pub(super) fn spindle(record: &Record) -> Vec<ExpectedStep> {
     let is_side = record.has(w::SIDE);
-    let counts = [Wanted::Counts(is_side)].into_iter();
+    let counts = [ExpectedStep::Counts(is_side)].into_iter();
     if !is_side {
         return counts.chain(of_spindle(record)).collect();
     }
-    let of_side = of_spindle(record).into_iter().map(|one| Wanted::OfSide(Box::new(one)));
+    let of_side = of_spindle(record).into_iter().map(|one| ExpectedStep::OfSide(Box::new(one)));
     counts.chain(side_spindle(record)).chain(of_side).collect()
 }
 
 /// What the spindle does that a record speaks of.
-fn of_spindle(record: &Record) -> Vec<Wanted> {
+fn of_spindle(record: &Record) -> Vec<ExpectedStep> {
     if record.has(w::OFF) {
-        return vec![Wanted::Spindle(Some(Spindle::Off))];
+        return vec![ExpectedStep::Spindle(Some(Spindle::Off))];
     }
     if record.has(w::ORIENT) {
-        return vec![Wanted::Orient(numbers(record).first().copied())];
+        return vec![ExpectedStep::Orient(numbers(record).first().copied())];
     }
     let speed = numbers_beside(record, &[w::MAXRPM, w::RANGE]).first().copied();
     if speed == Some(0.0) {
-        return vec![Wanted::Spindle(Some(Spindle::Off))];
+        return vec![ExpectedStep::Spindle(Some(Spindle::Off))];
     }
-    let mut wanted: Vec<Wanted> = range(record).map(Wanted::SpindleRange).into_iter().collect();
-    wanted.extend(record.number_after(w::MAXRPM).map(Wanted::SpeedLimit));
+    let mut wanted: Vec<ExpectedStep> =
+        range(record).map(ExpectedStep::SpindleRange).into_iter().collect();
+    wanted.extend(record.number_after(w::MAXRPM).map(ExpectedStep::SpeedLimit));
     wanted.extend(speed.map(|speed| {
-        Wanted::Speed(match () {
+        ExpectedStep::Speed(match () {
             () if record.has(w::SFM) => Speed::Surface(speed * FOOT),
             () if record.has(w::SMM) => Speed::Surface(speed),
             () => Speed::Turns(speed),
@@ -44,20 +45,20 @@ fn of_spindle(record: &Record) -> Vec<Wanted> {
     // A highest speed, or a range, turns nothing.
     let stays = speed.is_none() && turn.is_none() && !record.has(w::ON) && !wanted.is_empty();
     let turn = match (speed, turn) {
-        (None, None) => Wanted::SpindleAgain,
-        _ => Wanted::Spindle(turn),
+        (None, None) => ExpectedStep::SpindleAgain,
+        _ => ExpectedStep::Spindle(turn),
     };
     wanted.extend((!stays).then_some(turn));
     wanted
 }
 
 /// The second spindle; S is the same word for both.
-fn side_spindle(record: &Record) -> Vec<Wanted> {
+fn side_spindle(record: &Record) -> Vec<ExpectedStep> {
     if record.has(w::OFF) {
-        return vec![Wanted::SideSpindle(None)];
+        return vec![ExpectedStep::SideSpindle(None)];
     }
-    let speed = numbers(record).first().map(|speed| Wanted::Speed(Speed::Turns(*speed)));
-    let turn = Wanted::SideSpindle(Some(record.has(w::CLW)));
+    let speed = numbers(record).first().map(|speed| ExpectedStep::Speed(Speed::Turns(*speed)));
+    let turn = ExpectedStep::SideSpindle(Some(record.has(w::CLW)));
     speed.into_iter().chain([turn]).collect()
 }
 
@@ -75,9 +76,9 @@ fn range(record: &Record) -> Option<SpindleRange> {
     found.map(|(_, range)| *range)
 }
 
-pub(super) fn coolant(record: &Record) -> Option<Wanted> {
+pub(super) fn coolant(record: &Record) -> Option<ExpectedStep> {
     let (low, medium) = (record.has(w::LOW), record.has(w::MEDIUM));
-    Some(Wanted::Coolant(match () {
+    Some(ExpectedStep::Coolant(match () {
         () if record.has(w::OFF) => CoolantKind::Off,
         () if record.has(w::ON) && low => CoolantKind::OnLow,
         () if record.has(w::ON) && medium => CoolantKind::OnMedium,
@@ -97,19 +98,22 @@ pub(super) fn coolant(record: &Record) -> Option<Wanted> {
     }))
 }
 
-pub(super) fn compensation(record: &Record) -> Option<Wanted> {
+pub(super) fn compensation(record: &Record) -> Option<ExpectedStep> {
     let side = match () {
         () if record.has(w::OFF) => Compensation::Off,
         () if record.has(w::LEFT) => Compensation::Left,
         () if record.has(w::RIGHT) => Compensation::Right,
         () => return None,
     };
-    Some(Wanted::Compensation(side, numbers(record).first().and_then(|offset| whole(*offset))))
+    Some(ExpectedStep::Compensation(
+        side,
+        numbers(record).first().and_then(|offset| whole(*offset)),
+    ))
 }
 
 /// The plane that CUTCOM names.
-pub(super) fn plane_of_compensation(record: &Record) -> Option<Wanted> {
-    Some(Wanted::Plane(match () {
+pub(super) fn plane_of_compensation(record: &Record) -> Option<ExpectedStep> {
+    Some(ExpectedStep::Plane(match () {
         () if record.has(w::XYPLAN) => 2,
         () if record.has(w::ZXPLAN) || record.has(w::XZPLAN) => 1,
         () if record.has(w::YZPLAN) => 0,

@@ -5,18 +5,18 @@
 //! goes along clear of the crest only, and back to where the thread begins.
 
 use super::ahead::Steps;
+use super::expected_step::WholeThread;
 use super::report::FindingKind;
 use super::say::short;
 use super::thread_gauge::{Found, Gauge, Pass, ROUNDED};
-use super::walk::Walk;
-use super::wanted::WholeThread;
+use super::verifier::Verifier;
 use crate::motion::{Course, Event, Move, Rate};
 use fil_machine::modes::INCH;
 
 /// Most rapids from one pass to the next.
 const BETWEEN_PASSES: usize = 8;
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// Takes the events that cut a thread.
     pub(super) fn whole_thread(&mut self, cl_line: u32, thread: &WholeThread) {
         self.report.compared += 1;

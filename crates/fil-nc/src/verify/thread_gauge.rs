@@ -4,8 +4,8 @@
 use fil_machine::modes::INCH;
 use nalgebra::Point3;
 
+use super::expected_step::WholeThread;
 use super::say::short;
-use super::wanted::WholeThread;
 use crate::motion::Position;
 
 /// Most passes of one thread.

@@ -4,13 +4,13 @@
 
 use super::ahead::Steps;
 use super::report::FindingKind;
-use super::walk::{Fact, Walk};
+use super::verifier::{Fact, Verifier};
 use crate::motion::{Course, Move, Speed, Spindle};
 
 /// Speed and direction of the spindle in a pass, and whether it is the second one.
 pub(super) type Turns = (Option<Speed>, Spindle, Option<bool>);
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// The next pass must turn the spindle as the first one of its thread did.
     pub(super) fn check_turns_of_pass(&mut self, cl_line: u32, pass: &Move) {
         let now = (pass.modes.spindle.speed, pass.modes.spindle.turn, pass.modes.master.is_side);

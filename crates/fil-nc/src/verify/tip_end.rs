@@ -4,11 +4,11 @@
 use fil_machine::locations::{self as loc, ControlFamily};
 
 use super::ahead::Steps;
+use super::expected_step::{ExpectedStep, Step};
 use super::report::FindingKind;
 use super::say::short;
 use super::settings::Settings;
-use super::walk::{Fact, STILL, Walk};
-use super::wanted::{Step, Wanted};
+use super::verifier::{Fact, STILL, Verifier};
 use crate::motion::{Course, Event, Modes, Move, Position};
 
 impl Settings<'_> {
@@ -21,7 +21,7 @@ impl Settings<'_> {
     }
 }
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// A rapid straight along the tool, away from the part and as far as the settings ask
     /// for, behind which tool-tip control ends, or nothing moves any more.
     pub(super) fn goes_up_at_tip_end(&self, found: &Move) -> bool {
@@ -141,7 +141,9 @@ impl<C: Steps> Walk<'_, C> {
     /// that, which no step asks for: it comes behind all steps that stay.
     #[cold]
     pub(super) fn rests_before_tip_end(&mut self, step: &Step) -> bool {
-        let (Wanted::Rapid(pose) | Wanted::Feed(pose, _)) = &step.what else { return false };
+        let (ExpectedStep::Rapid(pose) | ExpectedStep::Feed(pose, _)) = &step.what else {
+            return false;
+        };
         // A new tool is brought there anew.
         if self.facts.has(Fact::FreshTool) {
             return false;

@@ -4,10 +4,10 @@ use super::ahead::Steps;
 use super::lines::RAPID_PARTS;
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::{Fact, LOOK_AHEAD, Walk};
+use super::verifier::{Fact, LOOK_AHEAD, Verifier};
 use crate::motion::{Course, Event, Position};
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     pub(super) fn tool(&mut self, cl_line: u32, number: u32, offset: u32) {
         self.memory.initial = None;
         // A text may have changed the tool.

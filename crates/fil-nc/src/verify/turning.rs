@@ -1,9 +1,9 @@
 //! MODE: what X and the main spindle are from here on.
 
 use super::ahead::Steps;
-use super::walk::Walk;
+use super::verifier::Verifier;
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// X on the tape is another multiple of its position from here on, which the
     /// program does not say.
     pub(super) fn scale_x(&mut self, scale: f64) {

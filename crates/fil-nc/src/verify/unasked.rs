@@ -3,10 +3,10 @@
 
 use super::ahead::Steps;
 use super::report::FindingKind;
-use super::walk::Walk;
+use super::verifier::Verifier;
 use crate::motion::{Compensation, Modes, Move};
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// A statement that moves the zero stands in the settings or in INSERT, one that changes how
     /// the path is followed there or among words of the user's own; else nobody has asked for
     /// it, and a part that is made so is made wrong.

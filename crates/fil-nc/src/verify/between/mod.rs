@@ -13,10 +13,10 @@ use fil_machine::Commons;
 use nalgebra::{Point3, Vector3};
 
 use super::ahead::Steps;
+use super::expected_step::Arc;
 use super::report::{Finding, FindingKind, Report};
 use super::say::short;
-use super::walk::{Fact, STILL, Walk};
-use super::wanted::Arc;
+use super::verifier::{Fact, STILL, Verifier};
 use crate::bend;
 use crate::forward::{Forward, Pose};
 use crate::motion::{Course, Move, Position};
@@ -224,7 +224,7 @@ impl Blocks {
     }
 }
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// Where the next motion of the CL file begins: at the end of the one before, when
     /// the tool stands there.
     pub(super) fn begins(&self) -> Pose {

@@ -9,7 +9,7 @@ use super::*;
 use crate::bend;
 use crate::forward;
 use crate::motion::{self, Course, Modes};
-use crate::verify::wanted;
+use crate::verify::expected_step;
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
@@ -126,7 +126,7 @@ fn an_arc_is_no_distance_from_itself() {
     // A table that turns under a tool at radius 40 makes the arc that is asked for.
     let forward = machine([rotary(Carries::Table, Z, [0.0; 3]), None], None);
     let (from, to) = (at([40.0, 0.0, 3.0], [0.0; 2]), at([40.0, 0.0, 3.0], [70.0, 0.0]));
-    let arc = wanted::Arc {
+    let arc = expected_step::Arc {
         center: Point3::new(0.0, 0.0, -8.0),
         normal: Vector3::z(),
         start: forward.pose(&from).tip,
@@ -144,7 +144,7 @@ fn an_arc_is_no_distance_from_itself() {
 fn a_helix_is_followed_turn_by_turn() {
     let forward = machine([rotary(Carries::Table, Z, [0.0; 3]), None], None);
     let (from, to) = (at([20.0, 0.0, 3.0], [0.0; 2]), at([20.0, 0.0, -9.0], [720.0, 0.0]));
-    let arc = wanted::Arc {
+    let arc = expected_step::Arc {
         center: Point3::origin(),
         normal: Vector3::z(),
         start: forward.pose(&from).tip,
@@ -290,7 +290,7 @@ proptest! {
         };
         let end = Pose { tip: on(sweep), axis: Vector3::z() };
         let arc =
-            wanted::Arc { center: start - spoke, normal: Vector3::z(), start, end, sweep };
+            expected_step::Arc { center: start - spoke, normal: Vector3::z(), start, end, sweep };
         let points: Vec<Point3<f64>> = (0..=1_000).map(|n| on(sweep * f64::from(n) / 1e3)).collect();
         let tip = |share| forward.pose(&forward.along(&from, &to, None, share)).tip;
         let nearest = |tip: Point3<f64>| {

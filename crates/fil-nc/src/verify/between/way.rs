@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Point3, Vector3};
 
-use crate::verify::wanted;
+use crate::verify::expected_step;
 
 /// Tool axes nearer than this lie in no plane that says how one turns to the other.
 const PARALLEL: f64 = 1e-5;
@@ -54,7 +54,7 @@ impl Way {
     }
 
     /// A part (degrees) of an arc of the CL file.
-    pub(crate) fn arc(arc: &wanted::Arc, [from, to]: [f64; 2]) -> Self {
+    pub(crate) fn arc(arc: &expected_step::Arc, [from, to]: [f64; 2]) -> Self {
         Way::Arc(Turn {
             center: arc.center + arc.normal * arc.normal.dot(&(arc.start - arc.center)),
             normal: arc.normal,

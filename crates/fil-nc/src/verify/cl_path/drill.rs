@@ -3,7 +3,7 @@
 use fil_cl::{Record, Word, WordId, words as w};
 use fil_machine::cycle_kind::CycleKind;
 
-use super::super::wanted::Wanted;
+use super::super::expected_step::ExpectedStep;
 use super::{Cycle, State};
 use crate::motion::Rate;
 
@@ -23,13 +23,13 @@ const CYCLES: [(WordId, CycleKind); 11] = [
 
 impl State {
     /// CYCLE; `None` for a form that leaves the path open.
-    pub(super) fn cycle(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+    pub(super) fn cycle(&mut self, record: &Record) -> Option<Vec<ExpectedStep>> {
         let pulls_back = record.has(w::PULBAC);
         let by_itself = record.after(w::RTRCTO) == Some(Word::Minor(w::AUTO));
         let off = record.has(w::OFF);
         if !pulls_back && (off || record.has(w::NOMORE)) {
             self.cycle = None;
-            return Some(vec![Wanted::CycleEnd]);
+            return Some(vec![ExpectedStep::CycleEnd]);
         }
         if record.data == [Word::Minor(w::INIT)] {
             return Some(Vec::new());
@@ -65,7 +65,7 @@ impl State {
             has_own_rate: rate.is_some(),
             rigid,
         });
-        let begins = begins.then_some(Wanted::CycleEnd);
-        Some(begins.into_iter().chain(rigid.then_some(Wanted::RigidTap)).collect())
+        let begins = begins.then_some(ExpectedStep::CycleEnd);
+        Some(begins.into_iter().chain(rigid.then_some(ExpectedStep::RigidTap)).collect())
     }
 }

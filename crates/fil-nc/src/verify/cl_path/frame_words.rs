@@ -10,8 +10,8 @@ use super::named_frame::NamedFrames;
 use super::{State, own_words};
 use crate::forward::Forward;
 use crate::motion::Position;
+use crate::verify::expected_step::{Effect, ExpectedStep, TableWay};
 use crate::verify::statements::{numbers, numbers_beside};
-use crate::verify::wanted::{Effect, TableWay, Wanted};
 
 /// What a machine takes words that move the frame for.
 #[derive(Clone, Debug, Default)]
@@ -68,7 +68,7 @@ impl Frame {
 }
 
 impl State {
-    pub(super) fn trans(&mut self, record: &Record) -> Vec<Wanted> {
+    pub(super) fn trans(&mut self, record: &Record) -> Vec<ExpectedStep> {
         if record.has(w::NOMORE) || record.has(w::OFF) {
             self.frame.matrix = None;
             self.frame.shift = Vector3::zeros();
@@ -83,13 +83,18 @@ impl State {
                 self.frame.matrix =
                     Some(Matrix { rows, turns_axis: option.is_none() && !self.frame.leaves_axis });
             }
-            _ => return vec![Wanted::Unknown { what: "TRANS".to_string(), effect: Effect::Path }],
+            _ => {
+                return vec![ExpectedStep::Unknown {
+                    what: "TRANS".to_string(),
+                    effect: Effect::Path,
+                }];
+            }
         }
         Vec::new()
     }
 
     /// ORIGIN as the machine reads it; `None` where it does not.
-    pub(super) fn origin(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+    pub(super) fn origin(&mut self, record: &Record) -> Option<Vec<ExpectedStep>> {
         let sign = match self.frame.words.origin {
             InputOrigin::Refused => return None,
             InputOrigin::ZeroOfTheMachineInThePart => -1.0,
@@ -105,7 +110,7 @@ impl State {
     }
 
     /// TRACUT as the machine reads it; `None` where it does not.
-    pub(super) fn tracut(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+    pub(super) fn tracut(&mut self, record: &Record) -> Option<Vec<ExpectedStep>> {
         if self.frame.words.tracut == InputTracut::Refused {
             return None;
         }
@@ -121,7 +126,7 @@ impl State {
 
     /// ROTABL and ROTATE/TABLE as the machine reads them; `None` where it does not, or where
     /// the angle hangs on motions before.
-    pub(super) fn table(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+    pub(super) fn table(&mut self, record: &Record) -> Option<Vec<ExpectedStep>> {
         if self.frame.words.table == RotaryTableWords::Refused {
             return None;
         }
@@ -173,7 +178,7 @@ impl State {
                 self.tool.point = None;
             }
         }
-        Some(vec![Wanted::Turn { index, angle, way }])
+        Some(vec![ExpectedStep::Turn { index, angle, way }])
     }
 
     /// Which way positions count as a record turns the table, 1 or -1; `None` where either will do.

@@ -2,7 +2,7 @@
 //!
 //! [`ClPath`] goes through the records and gives [`Step`]s: poses in the part
 //! frame after TRANS and the input translation, in mm. A statement whose effect is
-//! not known from the CL file alone becomes [`Wanted::Unknown`].
+//! not known from the CL file alone becomes [`ExpectedStep::Unknown`].
 
 mod drill;
 mod frame_words;
@@ -24,8 +24,8 @@ use fil_machine::Unit;
 use fil_machine::cycle_kind::CycleKind;
 use nalgebra::{Point3, Vector3};
 
+use super::expected_step::{End, ExpectedStep, Step};
 use super::statements::{numbers, numbers_beside, whole};
-use super::wanted::{End, Step, Wanted};
 use frame_words::Frame;
 pub use frame_words::FrameWords;
 use thread::Threads;
@@ -168,8 +168,9 @@ impl<'r> ClPath<'r> {
     pub fn in_unit(mut self, unit: Option<Unit>) -> Self {
         self.state.unit = unit;
         self.given = unit.is_some();
-        self.ready
-            .extend(unit.map(|unit| Step { line: 0, what: Wanted::Metric(unit.is_metric()) }));
+        self.ready.extend(
+            unit.map(|unit| Step { line: 0, what: ExpectedStep::Metric(unit.is_metric()) }),
+        );
         self
     }
 
@@ -183,7 +184,7 @@ impl<'r> ClPath<'r> {
                 return Ok(None);
             }
             if !self.reader.read(&mut self.vocabulary, &mut self.record)? {
-                self.give(vec![Wanted::End(End::OfFile)]);
+                self.give(vec![ExpectedStep::End(End::OfFile)]);
                 continue;
             }
             let line = self.record.line;
@@ -202,9 +203,9 @@ impl<'r> ClPath<'r> {
     }
 
     /// Gives the steps of the record at hand that are asked for.
-    fn give(&mut self, steps: Vec<Wanted>) {
+    fn give(&mut self, steps: Vec<ExpectedStep>) {
         let steps = self.skip.asked_of(&self.record, steps);
-        self.over = steps.iter().any(|what| matches!(what, Wanted::End(_)));
+        self.over = steps.iter().any(|what| matches!(what, ExpectedStep::End(_)));
         let line = self.record.line;
         self.ready.extend(steps.into_iter().map(|what| Step { line, what }));
     }
@@ -228,7 +229,7 @@ impl Iterator for ClPath<'_> {
 }
 
 impl State {
-    fn take(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
+    fn take(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<ExpectedStep> {
         if matches!(record.major, w::TPRINT | w::TOOL_PATH) {
             self.names.say(record);
             return Vec::new();
@@ -250,7 +251,7 @@ impl State {
                 self.mode(record);
                 Vec::new()
             }
-            kind::FINI => vec![Wanted::End(End::OfFile)],
+            kind::FINI => vec![ExpectedStep::End(End::OfFile)],
             kind::PSEUDO if record.major != w::CUTTER => Vec::new(),
             _ => self.command(record, vocabulary),
         }
@@ -268,7 +269,7 @@ impl State {
     }
 
     /// To a position of the machine, which the CL file does not know.
-    fn go_to_machine(&mut self, what: Wanted) -> Vec<Wanted> {
+    fn go_to_machine(&mut self, what: ExpectedStep) -> Vec<ExpectedStep> {
         self.tool.point = None;
         self.rapid = false;
         vec![what]
@@ -295,21 +296,21 @@ impl State {
     }
 
     /// LINTOL with a length, ON for the last one, or OFF.
-    fn straight(&mut self, record: &Record) -> Vec<Wanted> {
+    fn straight(&mut self, record: &Record) -> Vec<ExpectedStep> {
         if record.has(w::OFF) {
-            return vec![Wanted::Straight(None)];
+            return vec![ExpectedStep::Straight(None)];
         }
         let within = numbers(record).first().copied().filter(|within| *within > 0.0);
         self.straight = within.map(|within| within * self.unit()).or(self.straight);
-        vec![Wanted::Straight(self.straight)]
+        vec![ExpectedStep::Straight(self.straight)]
     }
 
-    fn tool(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+    fn tool(&mut self, record: &Record) -> Option<Vec<ExpectedStep>> {
         self.end_thread();
         let numbers = numbers_beside(record, &[w::LENGTH, w::OSETNO, w::ADJUST]);
         let number = *numbers.first()?;
         let offset = record.number_after(w::OSETNO).or(record.number_after(w::ADJUST));
-        Some(vec![Wanted::Tool {
+        Some(vec![ExpectedStep::Tool {
             number: self.names.number(whole(number)?),
             offset: match offset {
                 Some(offset) => Some(whole(offset)?),

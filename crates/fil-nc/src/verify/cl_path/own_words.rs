@@ -2,27 +2,30 @@
 
 use fil_cl::{Record, Vocabulary, Word};
 
+use crate::verify::expected_step::{Effect, ExpectedStep};
 use crate::verify::statements::{numbers, whole};
-use crate::verify::wanted::{Effect, Wanted};
 
 /// Preparatory functions of work offsets on every control.
 pub(super) const WORK_OFFSETS: [f64; 6] = [54.0, 55.0, 56.0, 57.0, 58.0, 59.0];
 
 /// What POSTN leaves open, and its words as they stand on a tape.
-pub(super) fn once(record: &Record, vocabulary: &Vocabulary) -> (Option<Effect>, Option<Wanted>) {
+pub(super) fn once(
+    record: &Record,
+    vocabulary: &Vocabulary,
+) -> (Option<Effect>, Option<ExpectedStep>) {
     let words = letters_and_values(record, vocabulary);
-    (Some(effect(record)), Some(Wanted::Words(spelt(&words))))
+    (Some(effect(record)), Some(ExpectedStep::Words(spelt(&words))))
 }
 
 /// The same for REPEAT, whose words stand in each motion that follows.
 pub(super) fn repeated(
     record: &Record,
     vocabulary: &Vocabulary,
-) -> (Option<Effect>, Option<Wanted>) {
+) -> (Option<Effect>, Option<ExpectedStep>) {
     let words = letters_and_values(record, vocabulary);
     let any = words.iter().any(|(letter, _)| [b'M', b'S'].contains(letter));
     let effect = if any { Effect::AnyWords } else { effect(record) };
-    (Some(effect), Some(Wanted::Repeated(spelt(&words))))
+    (Some(effect), Some(ExpectedStep::Repeated(spelt(&words))))
 }
 
 fn spelt(words: &[(u8, f64)]) -> String {

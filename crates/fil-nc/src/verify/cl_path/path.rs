@@ -9,9 +9,9 @@ use super::frame_words::Matrix;
 use super::{Cycle, State, Waiting};
 use crate::forward::Pose;
 use crate::motion::Rate;
+use crate::verify::expected_step::{Arc, Effect, ExpectedStep, Hole};
 use crate::verify::report::FindingKind;
 use crate::verify::statements::{numbers, statement};
-use crate::verify::wanted::{Arc, Effect, Hole, Wanted};
 
 /// Start and end of an arc nearer than this make a full circle, in CL units: numbers of a CL file
 /// have five digits behind the point, or more.
@@ -22,7 +22,11 @@ const SAME_POINT: f64 = 1.5e-5;
 const CLOSES: f64 = 1e-3;
 
 impl State {
-    pub(super) fn motion(&mut self, record: &Record, vocabulary: &Vocabulary) -> Option<Wanted> {
+    pub(super) fn motion(
+        &mut self,
+        record: &Record,
+        vocabulary: &Vocabulary,
+    ) -> Option<ExpectedStep> {
         let axis = record.axis().map_or(self.tool.axis, Vector3::from);
         let point = match record.point() {
             by if record.sub == motion::GODLTA => self.point_beside(record, by),
@@ -30,7 +34,7 @@ impl State {
         };
         let Some(point) = point else {
             let what = statement(record, vocabulary);
-            return Some(Wanted::Unknown { what, effect: Effect::Path });
+            return Some(ExpectedStep::Unknown { what, effect: Effect::Path });
         };
         if record.sub == motion::FROM {
             self.tool.point = Some(point);
@@ -38,7 +42,7 @@ impl State {
             return None;
         }
         if let Some(what) = self.frame.named.doubt(axis) {
-            return Some(Wanted::Unknown { what, effect: Effect::Path });
+            return Some(ExpectedStep::Unknown { what, effect: Effect::Path });
         }
         if record.sub == motion::GODLTA && (self.cycle.is_none() || self.rapid) {
             return Some(self.line_to(point, axis));
@@ -55,15 +59,15 @@ impl State {
                 if !self.keeps_lengths() {
                     let what = "a hole in a frame that scales its lengths".to_string();
                     let effect = Effect::Doubtful(FindingKind::Cycle);
-                    return Some(Wanted::Unknown { what, effect });
+                    return Some(ExpectedStep::Unknown { what, effect });
                 }
                 if self.taps_another_lead() {
                     let what = "a hole of CYCLE/TAP at another speed than the one before it, whose \
                                 lead is another one";
                     let effect = Effect::Doubtful(FindingKind::Thread);
-                    return Some(Wanted::Unknown { what: what.to_string(), effect });
+                    return Some(ExpectedStep::Unknown { what: what.to_string(), effect });
                 }
-                Wanted::Hole(Box::new(self.hole(&cycle, self.pose(point, axis))))
+                ExpectedStep::Hole(Box::new(self.hole(&cycle, self.pose(point, axis))))
             }
             _ => self.line_to(point, axis),
         })
@@ -78,14 +82,14 @@ impl State {
         }
     }
 
-    pub(super) fn line_to(&mut self, point: Point3<f64>, axis: Vector3<f64>) -> Wanted {
+    pub(super) fn line_to(&mut self, point: Point3<f64>, axis: Vector3<f64>) -> ExpectedStep {
         self.tool.point = Some(point);
         self.tool.axis = axis;
         let pose = self.pose(point, axis);
         match self.threads.lead {
-            _ if std::mem::take(&mut self.rapid) => Wanted::Rapid(pose),
-            Some(pitch) => Wanted::Thread(pose, pitch),
-            None => Wanted::Feed(pose, self.rate),
+            _ if std::mem::take(&mut self.rapid) => ExpectedStep::Rapid(pose),
+            Some(pitch) => ExpectedStep::Thread(pose, pitch),
+            None => ExpectedStep::Feed(pose, self.rate),
         }
     }
 
@@ -129,16 +133,16 @@ impl State {
 
     /// The arc by the right-hand rule from the last point to this one; TIMES are
     /// full turns besides. In a frame that keeps no circles it is not followed.
-    fn arc_to(&mut self, waiting: &Waiting, end: Point3<f64>, axis: Vector3<f64>) -> Wanted {
+    fn arc_to(&mut self, waiting: &Waiting, end: Point3<f64>, axis: Vector3<f64>) -> ExpectedStep {
         self.rapid = false;
         let keeps_circles = self.scale().is_some();
         let normal = Vector3::from(waiting.circle.axis);
         let (Some(start), Some(normal)) = (self.tool.point, normal.try_normalize(1e-9)) else {
-            return Wanted::Unknown { what: "CIRCLE".to_string(), effect: Effect::Path };
+            return ExpectedStep::Unknown { what: "CIRCLE".to_string(), effect: Effect::Path };
         };
         if !keeps_circles {
             let what = "an arc in a frame that makes no circle of it".to_string();
-            return Wanted::Unknown { what, effect: Effect::Path };
+            return ExpectedStep::Unknown { what, effect: Effect::Path };
         }
         let bare = Arc {
             center: Point3::from(waiting.circle.center),
@@ -149,12 +153,12 @@ impl State {
         };
         if is_full_or_none(&bare, waiting.turns, CLOSES / self.unit()) {
             let what = "CIRCLE whose end is nearly its start, a full turn or none".to_string();
-            return Wanted::Unknown { what, effect: Effect::Doubtful(FindingKind::Arc) };
+            return ExpectedStep::Unknown { what, effect: Effect::Doubtful(FindingKind::Arc) };
         }
         let sweep = full_sweep(&bare, waiting.turns);
         self.tool.point = Some(end);
         self.tool.axis = axis;
-        Wanted::Arc(Box::new(self.in_frame(&Arc { sweep, ..bare })), self.rate)
+        ExpectedStep::Arc(Box::new(self.in_frame(&Arc { sweep, ..bare })), self.rate)
     }
 
     /// How many times longer TRANS makes all lengths; `None` where not all alike.

@@ -3,7 +3,7 @@
 use fil_cl::record::kind;
 use fil_cl::{Record, words as w};
 
-use crate::verify::wanted::Wanted;
+use crate::verify::expected_step::ExpectedStep;
 
 /// Where a CL file stands with OPSKIP.
 #[derive(Default)]
@@ -31,25 +31,25 @@ impl Opskip {
     }
 
     /// The steps of a record as they are asked for: of one that is left out, what holds on.
-    pub fn asked_of(&mut self, record: &Record, mut steps: Vec<Wanted>) -> Vec<Wanted> {
+    pub fn asked_of(&mut self, record: &Record, mut steps: Vec<ExpectedStep>) -> Vec<ExpectedStep> {
         if record.kind == kind::POST && record.major == w::OPSKIP {
             self.is_on = record.has(w::ON);
         }
         if self.is_on {
-            steps.iter_mut().for_each(Wanted::mark_as_skipped);
+            steps.iter_mut().for_each(ExpectedStep::mark_as_skipped);
         }
         if self.leaves_out_now() {
-            let leaves_out = steps.iter().any(Wanted::is_done_once);
-            steps = steps.into_iter().filter_map(Wanted::left_out).collect();
+            let leaves_out = steps.iter().any(ExpectedStep::is_done_once);
+            steps = steps.into_iter().filter_map(ExpectedStep::left_out).collect();
             if leaves_out && !std::mem::replace(&mut self.is_told, true) {
-                steps.push(Wanted::LeftOut);
+                steps.push(ExpectedStep::LeftOut);
             }
             self.unfollowed = true;
         }
-        self.unfollowed &= !steps.iter().any(Wanted::is_done_once);
-        let end = steps.iter().position(|what| matches!(what, Wanted::End(_)));
+        self.unfollowed &= !steps.iter().any(ExpectedStep::is_done_once);
+        let end = steps.iter().position(|what| matches!(what, ExpectedStep::End(_)));
         if let Some(end) = end.filter(|_| self.unfollowed) {
-            steps.insert(end, Wanted::Unfollowed);
+            steps.insert(end, ExpectedStep::Unfollowed);
         }
         steps
     }

@@ -5,7 +5,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::State;
 use crate::motion::{INCH, Rate};
-use crate::verify::wanted::{Effect, Wanted, WholeThread};
+use crate::verify::expected_step::{Effect, ExpectedStep, WholeThread};
 
 /// Where TO stands among the items of THREAD/AUTO,x,y,z,TO,x,y,z.
 const TO: usize = 4;
@@ -38,13 +38,13 @@ pub(super) struct Threads {
 
 impl State {
     /// OP/THREAD and THREAD; `None` for forms that leave the passes open.
-    pub(super) fn thread(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+    pub(super) fn thread(&mut self, record: &Record) -> Option<Vec<ExpectedStep>> {
         self.end_thread();
         if record.has(w::NOMORE) || record.has(w::OFF) {
             return Some(Vec::new());
         }
         if record.has(w::AUTO) {
-            return Some(vec![Wanted::WholeThread(Box::new(self.automatic(record)?))]);
+            return Some(vec![ExpectedStep::WholeThread(Box::new(self.automatic(record)?))]);
         }
         if record.major == w::OP && !record.has(w::THREAD) {
             return None;
@@ -53,7 +53,7 @@ impl State {
         if let Some(pitch) = self.threads.pitch.filter(|_| record.major == w::THREAD && !says_lead)
         {
             self.threads.lead = Some(pitch);
-            return Some(vec![Wanted::ThreadBegins]);
+            return Some(vec![ExpectedStep::ThreadBegins]);
         }
         let lead = self.lead(record)?;
         let given = |word| record.number_after(word).filter(|value| *value != 0.0);
@@ -74,11 +74,11 @@ impl State {
             (None, None) => self.threads.lead = Some(Rate::PerTurn(lead)),
             _ => return None,
         }
-        Some(vec![Wanted::ThreadBegins])
+        Some(vec![ExpectedStep::ThreadBegins])
     }
 
     /// PITCH: threads in a unit of the CL file or in an inch, or a lead that may change.
-    pub(super) fn pitch(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+    pub(super) fn pitch(&mut self, record: &Record) -> Option<Vec<ExpectedStep>> {
         let belongs = |before: Option<&Word>| {
             let of_couplet = [w::INCR, w::DECR, w::MULTRD].map(Word::Minor);
             before.is_some_and(|word| of_couplet.contains(word))
@@ -167,14 +167,14 @@ impl State {
     }
 
     /// A point behind OP/THREAD: the first begins the crest, the second ends it.
-    pub(super) fn point_of_thread(&mut self, point: Point3<f64>) -> Option<Wanted> {
+    pub(super) fn point_of_thread(&mut self, point: Point3<f64>) -> Option<ExpectedStep> {
         let mut awaited = self.threads.awaited.take()?;
         let Some(begin) = awaited.start else {
             awaited.start = Some(point);
             self.threads.awaited = Some(awaited);
             return None;
         };
-        let open = Wanted::Unknown { what: "OP/THREAD".to_string(), effect: Effect::Path };
+        let open = ExpectedStep::Unknown { what: "OP/THREAD".to_string(), effect: Effect::Path };
         let Some(from) = awaited.from else { return Some(open) };
         let out = match awaited.on_face {
             true => self.out_of_face(Some(from), begin),
@@ -195,7 +195,7 @@ impl State {
             angle: 0.0,
         };
         self.tool.point = self.stands_behind(&thread);
-        Some(Wanted::WholeThread(Box::new(self.on_machine(&thread))))
+        Some(ExpectedStep::WholeThread(Box::new(self.on_machine(&thread))))
     }
 
     /// Where the tool stands behind a whole thread, its lengths in CL units: clear of the crest,

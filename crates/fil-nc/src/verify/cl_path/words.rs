@@ -4,15 +4,15 @@ use fil_cl::{Record, Vocabulary, WordId, words as w};
 
 use super::{State, own_words};
 use crate::motion::Speed;
+use crate::verify::expected_step::{Effect, End, ExpectedStep};
 use crate::verify::statements::{
     compensation, coolant, numbers, plane_of_compensation, spindle, statement, whole,
 };
-use crate::verify::wanted::{Effect, End, Wanted};
 
-type Steps = Vec<Wanted>;
+type Steps = Vec<ExpectedStep>;
 
 /// What words of the user's own leave open, and a step.
-type OwnStep = (Option<Effect>, Option<Wanted>);
+type OwnStep = (Option<Effect>, Option<ExpectedStep>);
 
 /// How a word is read.
 #[derive(Clone, Copy)]
@@ -65,15 +65,15 @@ pub(super) const WORDS: &[(WordId, Reading)] = &[
     (w::MODE, S(|_, record| mode(record))),
     (w::PREFUN, Own(|state, record, _| state.preparatory(record))),
     (w::AUXFUN, Or(Effect::Auxiliary, |_, record| auxiliary(record))),
-    (w::CLAMP, S(|_, record| vec![Wanted::Clamp(record.has(w::ON))])),
+    (w::CLAMP, S(|_, record| vec![ExpectedStep::Clamp(record.has(w::ON))])),
     (w::SET, S(|_, record| offset_by_number(record))),
-    (w::STOP, S(|_, _| vec![Wanted::Stop { optional: false }])),
-    (w::OPSTOP, S(|_, _| vec![Wanted::Stop { optional: true }])),
+    (w::STOP, S(|_, _| vec![ExpectedStep::Stop { optional: false }])),
+    (w::OPSTOP, S(|_, _| vec![ExpectedStep::Stop { optional: true }])),
     (w::INSERT, S(|_, record| vec![insert(record)])),
     (w::POSTN, Own(|_, record, vocabulary| own_words::once(record, vocabulary))),
     (w::REPEAT, Own(|_, record, vocabulary| own_words::repeated(record, vocabulary))),
-    (w::END, S(|_, _| vec![Wanted::End(End::Stay)])),
-    (w::REWIND, S(|_, _| vec![Wanted::End(End::Rewind)])),
+    (w::END, S(|_, _| vec![ExpectedStep::End(End::Stay)])),
+    (w::REWIND, S(|_, _| vec![ExpectedStep::End(End::Rewind)])),
     (w::CALSUB, EndsThePath),
     (w::COPY, EndsThePath),
     (w::DEFSUB, EndsThePath),
@@ -122,7 +122,7 @@ pub fn ignored_words() -> impl Iterator<Item = (WordId, &'static str)> {
 impl State {
     /// The steps of a post command.
     pub(super) fn command(&mut self, record: &Record, vocabulary: &Vocabulary) -> Steps {
-        let open = |effect| Wanted::Unknown { what: statement(record, vocabulary), effect };
+        let open = |effect| ExpectedStep::Unknown { what: statement(record, vocabulary), effect };
         match reading(record.major) {
             Some(S(steps)) => steps(self, record),
             Some(Or(effect, steps)) => steps(self, record).unwrap_or_else(|| vec![open(effect)]),
@@ -138,7 +138,7 @@ impl State {
     fn units(&mut self, record: &Record) -> Steps {
         let unit = super::unit::said(record);
         self.unit = Some(unit);
-        vec![Wanted::Metric(unit.is_metric())]
+        vec![ExpectedStep::Metric(unit.is_metric())]
     }
 
     fn rapid(&mut self, _: &Record) -> Steps {
@@ -148,7 +148,7 @@ impl State {
 
     fn cutter(&mut self, record: &Record) -> Steps {
         let diameter = numbers(record).first().map(|diameter| diameter * self.unit());
-        diameter.map(Wanted::Cutter).into_iter().collect()
+        diameter.map(ExpectedStep::Cutter).into_iter().collect()
     }
 
     fn feed(&mut self, record: &Record) -> Steps {
@@ -156,7 +156,9 @@ impl State {
         match rate {
             // Inverse time says the same feed in another way.
             None if record.has(w::INVERS) => return Vec::new(),
-            None if record.has(w::LOCK) => return vec![Wanted::OverrideLock(record.has(w::ON))],
+            None if record.has(w::LOCK) => {
+                return vec![ExpectedStep::OverrideLock(record.has(w::ON))];
+            }
             rate => self.rate = rate,
         }
         if let Some(cycle) = self.cycle.as_mut().filter(|cycle| !cycle.has_own_rate) {
@@ -171,7 +173,7 @@ impl State {
         self.spindle.is_side = record.has(w::SIDE);
         let steps = spindle(record);
         let speed = steps.iter().find_map(|step| match step {
-            Wanted::Speed(speed) => Some(*speed),
+            ExpectedStep::Speed(speed) => Some(*speed),
             _ => None,
         });
         self.spindle.turns = speed.map_or(self.spindle.turns, Speed::turns);
@@ -180,7 +182,7 @@ impl State {
 
     fn home(&mut self, record: &Record) -> Option<Steps> {
         if record.data.is_empty() {
-            return Some(self.go_to_machine(Wanted::Home));
+            return Some(self.go_to_machine(ExpectedStep::Home));
         }
         let (point, axis) = match numbers(record)[..] {
             [x, y, z] => ([x, y, z], self.tool.axis),
@@ -192,7 +194,7 @@ impl State {
 
     fn retract(&mut self, record: &Record) -> Steps {
         match record.data.is_empty() {
-            true => self.go_to_machine(Wanted::Retract),
+            true => self.go_to_machine(ExpectedStep::Retract),
             false => Vec::new(),
         }
     }
@@ -200,15 +202,15 @@ impl State {
     fn preparatory(&self, record: &Record) -> OwnStep {
         let code = match numbers(record)[..] {
             [code] if self.frame.chooses_offset(code) => {
-                return (None, Some(Wanted::Fixture(code as u32)));
+                return (None, Some(ExpectedStep::Fixture(code as u32)));
             }
             [code] => code,
             _ => return (Some(own_words::effect(record)), None),
         };
         let step = match (17.0..20.0).contains(&code) {
-            true => Wanted::Plane(19 - code as usize),
+            true => ExpectedStep::Plane(19 - code as usize),
             // Its mode is that of a text.
-            false => Wanted::Words(format!("G{code}")),
+            false => ExpectedStep::Words(format!("G{code}")),
         };
         (Some(own_words::effect(record)), Some(step))
     }
@@ -219,29 +221,29 @@ fn cutter_compensation(record: &Record) -> Option<Steps> {
     Some([side].into_iter().chain(plane_of_compensation(record)).collect())
 }
 
-fn dwell(record: &Record) -> Wanted {
+fn dwell(record: &Record) -> ExpectedStep {
     let amount = numbers(record).first().copied();
     match amount.filter(|_| record.has(w::REV)) {
-        Some(turns) => Wanted::DwellTurns(turns),
-        None => Wanted::Dwell(amount),
+        Some(turns) => ExpectedStep::DwellTurns(turns),
+        None => ExpectedStep::Dwell(amount),
     }
 }
 
 fn mode(record: &Record) -> Steps {
     let mode = [(w::TURN, false), (w::MILL, true)].into_iter().find(|(word, _)| record.has(*word));
-    mode.map(|(_, mills)| Wanted::Mills(mills)).into_iter().collect()
+    mode.map(|(_, mills)| ExpectedStep::Mills(mills)).into_iter().collect()
 }
 
 fn auxiliary(record: &Record) -> Option<Steps> {
     let code = numbers(record).first().and_then(|code| whole(*code))?;
-    Some(vec![Wanted::Auxiliary(code)])
+    Some(vec![ExpectedStep::Auxiliary(code)])
 }
 
 fn offset_by_number(record: &Record) -> Steps {
     let number = numbers(record).first().copied();
-    record.has(w::OFSETL).then_some(Wanted::WorkOffset(number)).into_iter().collect()
+    record.has(w::OFSETL).then_some(ExpectedStep::WorkOffset(number)).into_iter().collect()
 }
 
-fn insert(record: &Record) -> Wanted {
-    Wanted::Insert { text: record.text.trim().to_string(), may_be_skipped: false }
+fn insert(record: &Record) -> ExpectedStep {
+    ExpectedStep::Insert { text: record.text.trim().to_string(), may_be_skipped: false }
 }

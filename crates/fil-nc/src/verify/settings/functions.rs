@@ -8,7 +8,7 @@ use fil_machine::user_blocks;
 use super::{Due, Settings, due};
 use crate::motion::{Spindle, WORD_OFFSETS};
 use crate::text::read_block;
-use crate::verify::wanted::{CoolantKind, End, SpindleRange};
+use crate::verify::expected_step::{CoolantKind, End, SpindleRange};
 
 impl Settings<'_> {
     /// When a spindle word must be in force.

@@ -10,7 +10,7 @@ use nalgebra::Point3;
 use super::Settings;
 
 use crate::motion::{Move, Position, unit};
-use crate::verify::wanted::Arc;
+use crate::verify::expected_step::Arc;
 
 impl Settings<'_> {
     /// A feed in mm/min within the machine's range.

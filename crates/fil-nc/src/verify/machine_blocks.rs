@@ -10,7 +10,7 @@ use super::ahead::Steps;
 use super::lines::RAPID_PARTS;
 use super::modes::Expected;
 use super::settings::{Due, Settings};
-use super::walk::{LOOK_AHEAD, Walk};
+use super::verifier::{LOOK_AHEAD, Verifier};
 use crate::dialect::{Function, Numbered, SKIP};
 use crate::interpret::sinumerik_words::{self, Value};
 use crate::motion::{Event, Spindle};
@@ -21,7 +21,7 @@ const EVENTS_BEFORE_CHANGE: usize = LOOK_AHEAD * RAPID_PARTS;
 
 /// What the machine's own blocks are to switch.
 #[derive(Debug, Default)]
-pub(super) struct OwnSwitches {
+pub(super) struct MachineBlockEffects {
     /// Tool changes so far.
     pub(super) changes: usize,
     /// Blocks that may be skipped are left out.
@@ -67,7 +67,7 @@ impl Expected {
     }
 }
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// Takes up the blocks at the start of the program; those that may be skipped are left out
     /// from here on, or not.
     pub(super) fn begin_with_blocks(&mut self, leaves_out: bool) {

@@ -3,11 +3,11 @@
 use super::super::ahead::Steps;
 use super::super::gap::Gap;
 use super::super::settings::Tolerances;
-use super::Walk;
+use super::Verifier;
 use crate::forward::Pose;
 use crate::motion::{Move, Position};
 
-impl<C: Steps> Walk<'_, C> {
+impl<C: Steps> Verifier<'_, C> {
     /// Where the axes stand, X, Y, Z as a motion means them; those it leaves unknown keep
     /// their last value.
     pub(in super::super) fn at_as(&self, found: &Move) -> Position {

@@ -13,7 +13,7 @@ pub struct Step {
     /// Line of the CL file, 1-based.
     pub line: u32,
     /// What it is.
-    pub what: Wanted,
+    pub what: ExpectedStep,
 }
 
 /// How a table comes to a position.
@@ -30,7 +30,7 @@ pub enum TableWay {
 /// What a step of a CL file asks for. What is long and rare lies elsewhere, as most steps are lines
 /// and go through several hands.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Wanted {
+pub enum ExpectedStep {
     /// The unit of the file and of the program: mm, else inch.
     Metric(bool),
     /// Rapid traverse to a pose.
@@ -48,7 +48,7 @@ pub enum Wanted {
     /// The control counts the second spindle or the main one, where it is told which.
     Counts(bool),
     /// What the second spindle does on such a machine.
-    OfSide(Box<Wanted>),
+    OfSide(Box<ExpectedStep>),
     /// An arc or helix at feed.
     Arc(Box<Arc>, Option<Rate>),
     /// A hole of a cycle.
@@ -306,18 +306,20 @@ pub struct Hole {
     pub rigid: bool,
 }
 
-impl Wanted {
+impl ExpectedStep {
     /// A line of the tape stands in a block that may be skipped.
     pub(super) fn mark_as_skipped(&mut self) {
-        if let Wanted::Insert { may_be_skipped, .. } = self {
+        if let ExpectedStep::Insert { may_be_skipped, .. } = self {
             *may_be_skipped = true;
         }
     }
 
     /// What is left of a step that is left out: what holds on behind it.
-    pub(super) fn left_out(self) -> Option<Wanted> {
+    pub(super) fn left_out(self) -> Option<ExpectedStep> {
         match self {
-            Wanted::Tool { number, offset } => Some(Wanted::ToolLeftOut { number, offset }),
+            ExpectedStep::Tool { number, offset } => {
+                Some(ExpectedStep::ToolLeftOut { number, offset })
+            }
             done if done.is_done_once() => None,
             holds_on => Some(holds_on),
         }
@@ -328,30 +330,32 @@ impl Wanted {
         self.end().is_some()
             || matches!(
                 self,
-                Wanted::Home
-                    | Wanted::Retract
-                    | Wanted::Turn { .. }
-                    | Wanted::Tool { .. }
-                    | Wanted::Dwell(..)
-                    | Wanted::DwellTurns(_)
-                    | Wanted::WholeThread(_)
-                    | Wanted::SideSpindle(_)
-                    | Wanted::Stop { .. }
-                    | Wanted::OverrideLock(_)
-                    | Wanted::RigidTap
-                    | Wanted::Clamp(_)
-                    | Wanted::Auxiliary(_)
-                    | Wanted::Insert { .. }
-                    | Wanted::Words(_)
+                ExpectedStep::Home
+                    | ExpectedStep::Retract
+                    | ExpectedStep::Turn { .. }
+                    | ExpectedStep::Tool { .. }
+                    | ExpectedStep::Dwell(..)
+                    | ExpectedStep::DwellTurns(_)
+                    | ExpectedStep::WholeThread(_)
+                    | ExpectedStep::SideSpindle(_)
+                    | ExpectedStep::Stop { .. }
+                    | ExpectedStep::OverrideLock(_)
+                    | ExpectedStep::RigidTap
+                    | ExpectedStep::Clamp(_)
+                    | ExpectedStep::Auxiliary(_)
+                    | ExpectedStep::Insert { .. }
+                    | ExpectedStep::Words(_)
             )
     }
 
     /// Where a motion ends; `None` for all else.
     pub fn end(&self) -> Option<Pose> {
         match self {
-            Wanted::Rapid(pose) | Wanted::Feed(pose, _) | Wanted::Thread(pose, _) => Some(*pose),
-            Wanted::Arc(arc, _) => Some(arc.end),
-            Wanted::Hole(hole) => Some(hole.start),
+            ExpectedStep::Rapid(pose)
+            | ExpectedStep::Feed(pose, _)
+            | ExpectedStep::Thread(pose, _) => Some(*pose),
+            ExpectedStep::Arc(arc, _) => Some(arc.end),
+            ExpectedStep::Hole(hole) => Some(hole.start),
             _ => None,
         }
     }

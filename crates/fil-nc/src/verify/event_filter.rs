@@ -12,7 +12,7 @@ use crate::events::Events;
 use crate::motion::Event;
 
 /// The events of a program without those of modes that it leaves to the control.
-pub(super) struct Sift<'a, W> {
+pub(super) struct EventFilter<'a, W> {
     events: &'a mut dyn Events,
     watch: W,
 }
@@ -23,9 +23,9 @@ pub(super) trait Watcher {
     fn sees(&mut self, event: &Event) -> bool;
 }
 
-impl<'a, W: Watcher> Sift<'a, W> {
+impl<'a, W: Watcher> EventFilter<'a, W> {
     pub(super) fn new(events: &'a mut dyn Events, watch: W) -> Self {
-        Sift { events, watch }
+        EventFilter { events, watch }
     }
 
     pub(super) fn into_watcher(self) -> W {
@@ -33,7 +33,7 @@ impl<'a, W: Watcher> Sift<'a, W> {
     }
 }
 
-impl<W: Watcher> Events for Sift<'_, W> {
+impl<W: Watcher> Events for EventFilter<'_, W> {
     fn more(&mut self, into: &mut VecDeque<Event>) -> Result<bool, Box<Diag>> {
         let mut at = into.len();
         let more = self.events.more(into);
@@ -49,16 +49,16 @@ impl<W: Watcher> Events for Sift<'_, W> {
 }
 
 /// What a program that is compared with a CL file has besides its motions.
-pub(super) struct Beside {
+pub(super) struct NonMotionEvents {
     rules: Rules,
     clamps: Option<Clamps>,
     /// Line and number of each auxiliary function.
     pub(super) auxiliaries: Vec<(u32, u32)>,
 }
 
-impl Beside {
+impl NonMotionEvents {
     pub(super) fn new(settings: &Settings<'_>) -> Self {
-        Beside {
+        NonMotionEvents {
             rules: Rules::new(settings),
             clamps: Clamps::new(settings),
             auxiliaries: Vec::new(),
@@ -76,7 +76,7 @@ impl Beside {
     }
 }
 
-impl Watcher for Beside {
+impl Watcher for NonMotionEvents {
     fn sees(&mut self, event: &Event) -> bool {
         if self.clamps.as_mut().is_some_and(|clamps| clamps.takes(event)) {
             return false;

@@ -1,9 +1,9 @@
 //! Walks along the steps of a CL file and the events of a program at once.
 
 mod reach;
+mod state;
 
 use fil_diag::Diag;
-use nalgebra::Point3;
 
 use super::ahead::{Ahead, Steps};
 use super::align::Detour;
@@ -11,19 +11,18 @@ use super::auxiliaries::Auxiliaries;
 use super::between::Watch;
 use super::blocks::OwnBlocks;
 use super::delayed::Moved;
-use super::hole_tip::FromHole;
+use super::event_filter::{EventFilter, NonMotionEvents};
+use super::expected_step::{ExpectedStep, Step};
+use super::machine_blocks::MachineBlockEffects;
 use super::modes::Expected;
-use super::own_switches::OwnSwitches;
 use super::report::{Finding, FindingKind, Report};
 use super::say::Shape;
 use super::settings::{Settings, Tolerances};
-use super::sift::{Beside, Sift};
-use super::thread_turns::Turns;
-use super::wanted::{Step, Wanted};
 use super::window::Window;
 use crate::events::Events;
-use crate::forward::Pose;
 use crate::motion::{Course, DRILLED, Event, Modes, Move, Position};
+pub(super) use state::Fact;
+use state::{AxisLimits, ENDED_BY_MOTION, Facts, LastMotion, StepMemory, UserWords};
 
 /// What X is multiplied by when it is a diameter.
 const DIAMETER: f64 = 2.0;
@@ -34,118 +33,15 @@ pub(super) const LOOK_AHEAD: usize = 8;
 /// Ways shorter than this are none, mm or degrees.
 pub(super) const STILL: f64 = 1e-9;
 
-/// What holds of the tool since something has happened.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fact {
-    /// No motion came since the cutter was named.
-    FreshCutter,
-    /// No motion came since the tool was changed: where it is is not known.
-    FreshTool,
-    /// Z has not moved since the tool was changed.
-    FreshHeight,
-    /// The height of the program has been known before.
-    HadHeight,
-    /// The last motion was one of a pass.
-    InGroove,
-    /// The last motion of the tip was at feed.
-    InCut,
-    /// The tool has gone up for the end of tool center point control.
-    Up,
-    /// The tool has gone up before tool center point control takes off the length it was brought
-    /// with.
-    Above,
-    /// A tool change or a position of the machine has brought the tool away from the part.
-    Away,
-}
-
-/// Those that a motion of X, Y or Z ends.
-const ENDED_BY_MOTION: [Fact; 3] = [Fact::FreshCutter, Fact::FreshTool, Fact::Above];
-
-/// The facts that hold, a bit for each.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Facts(u16);
-
-impl Facts {
-    fn at_start() -> Self {
-        Facts(1 << Fact::Away as u16)
-    }
-
-    pub(super) fn has(self, fact: Fact) -> bool {
-        self.0 & (1 << fact as u16) != 0
-    }
-
-    pub(super) fn set(&mut self, fact: Fact, holds: bool) {
-        let bit = 1 << fact as u16;
-        self.0 = if holds { self.0 | bit } else { self.0 & !bit };
-    }
-
-    pub(super) fn end_unless(&mut self, fact: Fact, stays: bool) {
-        self.set(fact, self.has(fact) && stays);
-    }
-
-    pub(super) fn add_if(&mut self, fact: Fact, begins: bool) {
-        self.set(fact, self.has(fact) || begins);
-    }
-}
-
-/// The last motion taken.
-#[derive(Default)]
-pub(super) struct LastMotion {
-    /// Its line in the program.
-    pub(super) line: u32,
-    pub(super) modes: Modes,
-    /// It was one under tool center point control.
-    tip: bool,
-    /// Its unusual plane, by the index of its normal.
-    pub(super) plane: Option<usize>,
-}
-
-/// How the axes are written, and how far they go, in the unit of the program at hand.
-pub(super) struct AxisLimits {
-    pub(super) metric: bool,
-    /// Travel of the linear axes, mm.
-    pub(super) travel: [(f64, f64); 3],
-    pub(super) written: [bool; 3],
-    pub(super) splits_rapids: bool,
-    /// What the program multiplies X by.
-    pub(super) x_scale: f64,
-}
-
-/// What a step leaves for those after it.
-#[derive(Default)]
-pub(super) struct StepMemory {
-    /// Where the rapid has ended that is the last motion.
-    pub(super) rapid_end: Option<Pose>,
-    /// Where the rapid at hand leads, as the CL file names it.
-    pub(super) rapid_to: Option<Pose>,
-    /// End of the last arc in the CL file, and as the machine corrects it.
-    pub(super) corrected_end: Option<[Point3<f64>; 2]>,
-    /// Level the control's cycle began from.
-    pub(super) initial: Option<f64>,
-    /// From the directions of the hole, in which its moves are written.
-    pub(super) from_hole: Option<FromHole>,
-    /// How the spindle turned in the passes of the thread so far.
-    pub(super) thread_turns: Option<Turns>,
-}
-
-/// What words of the user's own do.
-pub(super) struct UserWords {
-    /// The first and the last line of the program that may hold them.
-    pub(super) lines: [u32; 2],
-    /// F that REPEAT writes into each motion, beside its own, as on the tape.
-    pub(super) repeated_feed: Option<f64>,
-    /// Lines of statements that no record asks for, which were reported.
-    pub(super) unasked: [Option<u32>; 2],
-}
-
-pub(super) struct Walk<'a, C> {
+/// Goes along both.
+pub(super) struct Verifier<'a, C> {
     pub(super) cl: Ahead<C>,
-    pub(super) nc: Window<Sift<'a, Beside>>,
+    pub(super) nc: Window<EventFilter<'a, NonMotionEvents>>,
     /// Index of the next event.
     pub(super) next: usize,
     pub(super) own: OwnBlocks<'a>,
     /// What the machine's own blocks are to switch.
-    pub(super) blocks: OwnSwitches,
+    pub(super) blocks: MachineBlockEffects,
     pub(super) auxiliaries: Auxiliaries,
     pub(super) settings: &'a Settings<'a>,
     pub(super) slack: Tolerances,
@@ -173,7 +69,7 @@ pub(super) struct Walk<'a, C> {
     pub(super) over: bool,
 }
 
-impl<'a, C: Steps> Walk<'a, C> {
+impl<'a, C: Steps> Verifier<'a, C> {
     pub(super) fn new(
         cl: C,
         nc: &'a mut dyn Events,
@@ -181,12 +77,12 @@ impl<'a, C: Steps> Walk<'a, C> {
         settings: &'a Settings<'a>,
         watch: Watch,
     ) -> Self {
-        Walk {
+        Verifier {
             cl: Ahead::new(cl),
-            nc: Window::new(Sift::new(nc, Beside::new(settings))),
+            nc: Window::new(EventFilter::new(nc, NonMotionEvents::new(settings))),
             next: 0,
             own,
-            blocks: OwnSwitches::default(),
+            blocks: MachineBlockEffects::default(),
             auxiliaries: Auxiliaries::new(settings.way_out_codes()),
             settings,
             slack: settings.slack(true),
@@ -221,7 +117,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         while !self.over
             && let Some(step) = self.cl.next()
         {
-            ended = matches!(step.what, Wanted::End(_));
+            ended = matches!(step.what, ExpectedStep::End(_));
             self.step(&step);
         }
         let beside = self.nc.finish()?.into_watcher();
@@ -261,76 +157,78 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.nc.forget(self.next.saturating_sub(1));
         self.expected.take(&step.what, self.settings);
         match &step.what {
-            Wanted::Metric(metric) => {
+            ExpectedStep::Metric(metric) => {
                 self.limits.metric = *metric;
                 self.slack = self.settings.slack(*metric);
                 self.limits.travel = self.settings.travel(*metric);
             }
-            Wanted::Home => self.go_to_machine(step.line, self.settings.home(self.limits.metric)),
-            Wanted::Retract => self.retract(step.line),
-            Wanted::Turn { index, angle, way } => self.turn(step.line, *index, *angle, *way),
-            Wanted::Cutter(diameter) => {
+            ExpectedStep::Home => {
+                self.go_to_machine(step.line, self.settings.home(self.limits.metric))
+            }
+            ExpectedStep::Retract => self.retract(step.line),
+            ExpectedStep::Turn { index, angle, way } => self.turn(step.line, *index, *angle, *way),
+            ExpectedStep::Cutter(diameter) => {
                 self.cutter = Some(*diameter);
                 self.facts.set(Fact::FreshCutter, true);
             }
-            Wanted::Mills(mills) if self.settings.is_mill_turn() => {
+            ExpectedStep::Mills(mills) if self.settings.is_mill_turn() => {
                 self.ask_spindle_mode(step.line, *mills);
             }
-            Wanted::Mills(mills) => self.scale_x(if *mills { 1.0 } else { DIAMETER }),
-            Wanted::CycleEnd => self.end_cycle(step.line),
-            Wanted::ThreadBegins => self.memory.thread_turns = None,
-            Wanted::Straight(within) => self.watch.ask(*within),
-            Wanted::LeftOut => self.watch.begin_elsewhere(self.settings.divides_within()),
-            Wanted::Tool { number, offset } => {
+            ExpectedStep::Mills(mills) => self.scale_x(if *mills { 1.0 } else { DIAMETER }),
+            ExpectedStep::CycleEnd => self.end_cycle(step.line),
+            ExpectedStep::ThreadBegins => self.memory.thread_turns = None,
+            ExpectedStep::Straight(within) => self.watch.ask(*within),
+            ExpectedStep::LeftOut => self.watch.begin_elsewhere(self.settings.divides_within()),
+            ExpectedStep::Tool { number, offset } => {
                 self.facts.set(Fact::FreshHeight, self.settings.restates_after_change());
                 self.tool(step.line, *number, self.settings.tool_offset(*number, *offset));
                 self.cutter = self.cutter.filter(|_| self.facts.has(Fact::FreshCutter));
                 self.facts.set(Fact::FreshTool, true);
             }
-            Wanted::ToolLeftOut { number, offset } => {
+            ExpectedStep::ToolLeftOut { number, offset } => {
                 let offset = self.settings.tool_offset(*number, *offset);
                 self.expected.leave_tool_out(*number, offset, self.settings);
             }
-            Wanted::Dwell(seconds) => self.dwell(step.line, *seconds, None),
-            Wanted::DwellTurns(turns) => {
+            ExpectedStep::Dwell(seconds) => self.dwell(step.line, *seconds, None),
+            ExpectedStep::DwellTurns(turns) => {
                 let speed =
                     self.expected.turns_a_minute().or_else(|| self.turns_at_surface_speed());
                 let speed = speed.filter(|_| self.settings.waits_seconds());
                 let seconds = speed.map(|speed| turns * 60.0 / speed);
                 self.dwell(step.line, seconds, Some(*turns));
             }
-            Wanted::Insert { text, may_be_skipped } => {
+            ExpectedStep::Insert { text, may_be_skipped } => {
                 for text in self.settings.blocks_of_text(text) {
                     self.insert(step.line, text, *may_be_skipped);
                 }
             }
-            Wanted::Words(text) => self.ask_words(step.line, text),
-            Wanted::WholeThread(thread) => self.whole_thread(step.line, thread),
+            ExpectedStep::Words(text) => self.ask_words(step.line, text),
+            ExpectedStep::WholeThread(thread) => self.whole_thread(step.line, thread),
             // Which spindle is counted, and how it turns, the modes of the motions say.
-            Wanted::SideSpindle(_) if self.settings.dialect.turning.counted.is_chosen() => {}
-            Wanted::SideSpindle(turn) => {
+            ExpectedStep::SideSpindle(_) if self.settings.dialect.turning.counted.is_chosen() => {}
+            ExpectedStep::SideSpindle(turn) => {
                 self.ask_auxiliary(step.line, self.settings.side_spindle_code(*turn));
             }
-            Wanted::Unknown { what, effect } => self.unknown(step.line, what, *effect),
-            Wanted::Repeated(text) => {
+            ExpectedStep::Unknown { what, effect } => self.unknown(step.line, what, *effect),
+            ExpectedStep::Repeated(text) => {
                 let of_feed = text.split(' ').find_map(|word| word.strip_prefix('F'));
                 self.user.repeated_feed = of_feed.and_then(|value| value.parse().ok());
                 if !text.is_empty() {
                     self.user.lines[1] = u32::MAX;
                 }
             }
-            Wanted::Stop { optional } => {
+            ExpectedStep::Stop { optional } => {
                 self.ask_auxiliary(step.line, self.settings.stop_code(*optional));
             }
-            Wanted::OverrideLock(on) => {
+            ExpectedStep::OverrideLock(on) => {
                 self.ask_auxiliary(step.line, self.settings.override_lock(*on))
             }
-            Wanted::RigidTap if self.settings.is_mill_turn() && self.expected.mills() => {}
-            Wanted::RigidTap => self.ask_auxiliary(step.line, self.settings.rigid_tap_mode()),
-            Wanted::Clamp(on) => self.ask_auxiliary(step.line, self.settings.clamp_code(*on)),
-            Wanted::Auxiliary(code) => self.auxiliary(step.line, *code),
-            Wanted::Unfollowed => self.expected.unfollowed = true,
-            Wanted::End(end) => self.end(step.line, *end),
+            ExpectedStep::RigidTap if self.settings.is_mill_turn() && self.expected.mills() => {}
+            ExpectedStep::RigidTap => self.ask_auxiliary(step.line, self.settings.rigid_tap_mode()),
+            ExpectedStep::Clamp(on) => self.ask_auxiliary(step.line, self.settings.clamp_code(*on)),
+            ExpectedStep::Auxiliary(code) => self.auxiliary(step.line, *code),
+            ExpectedStep::Unfollowed => self.expected.unfollowed = true,
+            ExpectedStep::End(end) => self.end(step.line, *end),
             _ if step.what.end().is_some() => self.motion(step),
             _ => {}
         }
@@ -342,13 +240,14 @@ impl<'a, C: Steps> Walk<'a, C> {
         let made = self.is_made(step);
         // Said again at the same number, Z has come down too.
         self.facts.set(Fact::FreshHeight, false);
-        self.watch.stand(step.what.end().filter(|_| made && !matches!(step.what, Wanted::Hole(_))));
+        self.watch
+            .stand(step.what.end().filter(|_| made && !matches!(step.what, ExpectedStep::Hole(_))));
     }
 
     /// Goes through what the program does for a motion; false when that is another.
     fn is_made(&mut self, step: &Step) -> bool {
         self.report.compared += 1;
-        if !matches!(step.what, Wanted::Hole(_)) {
+        if !matches!(step.what, ExpectedStep::Hole(_)) {
             self.memory.initial = None;
         }
         let rests = self.at.tip_control && self.rests_before_tip_end(step);
@@ -363,12 +262,12 @@ impl<'a, C: Steps> Walk<'a, C> {
                 self.forget_tip(&next);
                 self.at = self.at_as(&next);
             }
-            if let Wanted::Feed(pose, rate) = &step.what
+            if let ExpectedStep::Feed(pose, rate) = &step.what
                 && self.repositions(step.line, pose, *rate)
             {
                 continue;
             }
-            if let Wanted::Rapid(pose) = &step.what
+            if let ExpectedStep::Rapid(pose) = &step.what
                 && self.repositions_at_rapid(step.line, pose)
             {
                 continue;
@@ -382,7 +281,7 @@ impl<'a, C: Steps> Walk<'a, C> {
                 self.ends_early(step);
                 return false;
             }
-            if let Wanted::Feed(pose, rate) = &step.what
+            if let ExpectedStep::Feed(pose, rate) = &step.what
                 && self.parts_beside(step.line, pose, *rate)
             {
                 return false;
@@ -405,17 +304,17 @@ impl<'a, C: Steps> Walk<'a, C> {
     /// Takes the events that make a step; false when the next ones don't.
     pub(super) fn makes(&mut self, step: &Step) -> bool {
         match &step.what {
-            Wanted::Rapid(pose) => self.rapid(step.line, pose),
-            Wanted::Feed(pose, rate) => self.line(step.line, pose, Course::Feed, *rate),
-            Wanted::Thread(pose, lead) => {
+            ExpectedStep::Rapid(pose) => self.rapid(step.line, pose),
+            ExpectedStep::Feed(pose, rate) => self.line(step.line, pose, Course::Feed, *rate),
+            ExpectedStep::Thread(pose, lead) => {
                 if let Some(pass) = self.next_move().filter(|pass| pass.course == Course::Thread) {
                     self.check_turns_of_pass(step.line, &pass);
                     self.check_joins(step.line, &pass);
                 }
                 self.line(step.line, pose, Course::Thread, Some(*lead))
             }
-            Wanted::Arc(arc, rate) => self.arc(step.line, arc, *rate),
-            Wanted::Hole(hole) => self.hole(step.line, hole),
+            ExpectedStep::Arc(arc, rate) => self.arc(step.line, arc, *rate),
+            ExpectedStep::Hole(hole) => self.hole(step.line, hole),
             _ => true,
         }
     }
