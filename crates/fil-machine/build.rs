@@ -1,7 +1,11 @@
 //! Makes the typed settings from `data/locations.tsv`: a constant for each
-//! location the post acts on, an enum for each choice, and the table of all rows.
+//! location the post acts on, an enum for each choice, and the table of all rows; and the table of
+//! G and M functions from `data/functions.tsv`.
 
-use std::collections::HashSet;
+#[path = "build/functions.rs"]
+mod functions;
+
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 use std::{env, fs, path::Path};
 
@@ -21,17 +25,23 @@ const ABSENT: &str = "-32767";
 const ABSENT_REAL: &str = "999999";
 
 fn main() {
-    println!("cargo::rerun-if-changed=data/locations.tsv");
+    for file in ["build.rs", "build/functions.rs", "data/locations.tsv", "data/functions.tsv"] {
+        println!("cargo::rerun-if-changed={file}");
+    }
     let source = fs::read_to_string("data/locations.tsv").expect("data/locations.tsv");
     let mut constants = String::new();
     let mut enums = String::new();
     let mut seen = HashSet::new();
     let mut cells = HashSet::new();
+    let mut integers = HashMap::new();
     let mut table = String::from("/// All named locations, in the order of the table's file.\n");
     table.push_str("pub static TABLE: &[Location] = &[\n");
     for line in source.lines().filter(|line| !line.starts_with('#')).skip(1) {
         let row = Row::read(line);
         assert!(cells.insert((row.kind, row.number)), "two settings in one location: {line}");
+        if row.kind == "I" {
+            integers.insert(row.name, row.number);
+        }
         if row.used {
             row.constant(&mut constants);
             if row.unit == "choice" && seen.insert(row.enum_name()) {
@@ -41,8 +51,12 @@ fn main() {
         row.table_entry(&mut table);
     }
     table.push_str("];\n");
-    let out = Path::new(&env::var("OUT_DIR").expect("OUT_DIR")).join("locations.rs");
-    fs::write(out, enums + &constants + &table).expect("write locations.rs");
+    let folder = env::var("OUT_DIR").expect("OUT_DIR");
+    let write = |name: &str, source: String| {
+        fs::write(Path::new(&folder).join(name), source).expect("write into OUT_DIR");
+    };
+    write("locations.rs", enums + &constants + &table);
+    write("functions.rs", functions::source(&integers));
 }
 
 /// A line of the table.

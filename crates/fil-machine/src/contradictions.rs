@@ -5,7 +5,6 @@ mod codes;
 mod counted_spindle;
 mod description;
 mod function_rules;
-mod functions;
 mod letters;
 mod numbers;
 mod tape;

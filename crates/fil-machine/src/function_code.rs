@@ -28,6 +28,17 @@ impl FunctionCode {
         FunctionCode { tenths }
     }
 
+    /// Its number in tenths.
+    #[inline]
+    pub const fn in_tenths(self) -> u32 {
+        self.tenths
+    }
+
+    /// True for a number without a tenth.
+    pub const fn is_whole(self) -> bool {
+        self.tenths.is_multiple_of(10)
+    }
+
     /// The code a setting holds; `None` for a negative number.
     #[inline]
     pub fn of_setting(number: i32) -> Option<Self> {

@@ -21,6 +21,7 @@ pub mod files;
 mod frame_rules;
 mod full_turn;
 pub mod function_code;
+pub mod functions;
 pub mod letter;
 pub mod locations;
 pub mod mill_turn;

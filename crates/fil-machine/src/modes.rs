@@ -106,3 +106,23 @@ pub enum FeedMode {
     /// Motions a minute: 1 over the minutes of this one.
     InverseTime,
 }
+
+/// How coordinates count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Distance {
+    /// From the zero of the program (G90).
+    Absolute,
+    /// From the point before (G91).
+    Incremental,
+}
+
+/// On which side of the path the cutter runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compensation {
+    /// On the path (G40).
+    Off,
+    /// Left of the path (G41).
+    Left,
+    /// Right of the path (G42).
+    Right,
+}

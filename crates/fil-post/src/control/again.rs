@@ -2,12 +2,11 @@
 //! that are left out because it has them.
 
 use fil_diag::Result;
-use fil_machine::locations as loc;
+use fil_machine::functions::Motion;
 use fil_machine::modes::FeedMode;
 use fil_machine::{FunctionCode, Letter, letters};
 
 use super::Control;
-use super::apart::TURNING;
 use crate::cause::Cause;
 use crate::control_state::{Meaning, Source, modal};
 use crate::errors::PostCode;
@@ -64,7 +63,9 @@ impl Control {
             words.map(|(_, value, _)| FunctionCode::of_value(*value))
         };
         let is_plain = of(letters::G).all(|code| code.is_some_and(|code| self.only_moves(code)));
-        let speed_is_one = of(letters::M).all(|code| code.is_some_and(|code| self.turns(code)));
+        // S beside M19 or M29 is another word.
+        let speed_is_one =
+            of(letters::M).all(|code| code.is_some_and(|code| self.codes.turns_spindle(code)));
         if !is_plain {
             return Ok(words);
         }
@@ -81,12 +82,7 @@ impl Control {
     /// A function of a motion beside which positions, F and S are what they are anywhere: F of a
     /// thread is its lead.
     fn only_moves(&self, code: FunctionCode) -> bool {
-        loc::MOTION_CODES.iter().any(|at| self.code_if_any(*at) == Some(code))
-    }
-
-    /// A function that turns the spindle by the S of its block: S beside M19 or M29 is another word.
-    fn turns(&self, code: FunctionCode) -> bool {
-        TURNING.iter().any(|at| self.code_if_any(*at) == Some(code))
+        matches!(self.meaning(code), Meaning::Motion(kind) if kind != Motion::Thread)
     }
 
     fn has_word(&self, letter: Letter, value: f64) -> Result<bool> {
@@ -95,7 +91,8 @@ impl Control {
         }
         if letter == letters::G {
             let code = FunctionCode::of_value(value);
-            let is_motion = code.is_some_and(|code| self.meaning(code) == Meaning::Motion);
+            let is_motion =
+                code.is_some_and(|code| matches!(self.meaning(code), Meaning::Motion(_)));
             return Ok(is_motion && self.state.get(modal::MOTION) == code);
         }
         let Some(format) = self.tables.addresses.format(letter) else { return Ok(false) };

@@ -1,28 +1,14 @@
 //! A block with several functions on a control that takes one G or one M in a block.
 
 use fil_diag::Result;
+use fil_machine::functions::Acts;
 use fil_machine::letters::{G, M, S, T};
-use fil_machine::setting::CodeAt;
 use fil_machine::{FunctionCode, locations as loc};
 
 use super::Control;
 use crate::cause::Cause;
 use crate::control_state::{Compensation, Meaning};
 use crate::errors::PostCode;
-
-/// Auxiliary functions that act when the rest of their block has been carried out.
-const AFTER: [CodeAt; 6] = [
-    loc::PROGRAM_STOP_CODE,
-    loc::PROGRAM_OPSTOP_CODE,
-    loc::PROGRAM_END_CODE,
-    loc::PROGRAM_REWIND_CODE,
-    loc::SPINDLE_STOP_CODE,
-    loc::COOLANT_OFF_CODE,
-];
-
-/// Auxiliary functions that turn the spindle at the speed of their block.
-pub(super) const TURNING: [CodeAt; 3] =
-    [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE, loc::SPINDLE_DEFAULT_CODE];
 
 impl Control {
     /// True when the block under construction has more functions than the control takes.
@@ -70,7 +56,7 @@ impl Control {
         let keeper = self.keeper(&block, &codes);
         let others: Vec<_> = codes.into_iter().filter(|(code, _)| *code != keeper).collect();
         let (after, before): (Vec<_>, Vec<_>) =
-            others.into_iter().partition(|(code, _)| self.is_one_of(*code, &AFTER));
+            others.into_iter().partition(|(code, _)| self.acts_after(*code));
         for (code, _) in before.iter().chain(&after) {
             block.remove(M, *code);
         }
@@ -101,29 +87,22 @@ impl Control {
     /// last that acts before them, else the first.
     fn keeper(&self, block: &crate::block::Block, codes: &[(FunctionCode, Cause)]) -> FunctionCode {
         let addresses = &self.tables.addresses;
-        let of = |group: &[CodeAt]| codes.iter().find(|(code, _)| self.is_one_of(*code, group));
-        let changes = of(&[loc::TOOL_CHANGE_CODE]).filter(|_| block.has(T, addresses));
-        let turns = of(&TURNING).filter(|_| block.has(S, addresses));
-        let before = codes.iter().rev().find(|(code, _)| !self.is_one_of(*code, &AFTER));
+        let change = codes.iter().find(|(code, _)| self.changes_tool(*code));
+        let changes = change.filter(|_| block.has(T, addresses));
+        let turn = codes.iter().find(|(code, _)| self.codes.turns_spindle(*code));
+        let turns = turn.filter(|_| block.has(S, addresses));
+        let before = codes.iter().rev().find(|(code, _)| !self.acts_after(*code));
         changes.or(turns).or(before).unwrap_or(&codes[0]).0
     }
 
-    fn is_one_of(&self, code: FunctionCode, group: &[CodeAt]) -> bool {
-        group.iter().any(|at| self.code_if_any(*at) == Some(code))
+    /// True for an M code that acts when the rest of its block has been carried out.
+    fn acts_after(&self, code: FunctionCode) -> bool {
+        self.codes.auxiliaries(code).any(|row| row.acts == Acts::After)
     }
 
     /// True for a mode that can stand in a block of its own.
     fn is_mode(&self, code: FunctionCode) -> bool {
-        matches!(
-            self.meaning(code),
-            Meaning::Plane(_)
-                | Meaning::Distance(_)
-                | Meaning::Unit(_)
-                | Meaning::FeedMode(_)
-                | Meaning::CycleOff
-                | Meaning::ReturnLevel
-                | Meaning::Compensation(_)
-        )
+        self.codes.function(code).is_some_and(|row| row.acts == Acts::Before)
     }
 
     /// The offset of a compensation stands in the block of its code.

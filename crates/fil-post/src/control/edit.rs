@@ -155,7 +155,7 @@ impl Control {
         }
         self.tape.replace_last_line(start, &after, &self.tables)?;
         let known = self.before_others()?;
-        let brings = edit.brings_functions();
+        let brings = self.brings_functions(edit);
         match maker {
             Maker::Post => {
                 self.learn_edited(&before, &after, maker);
@@ -220,7 +220,7 @@ impl Control {
             Maker::Post => self.learn_left(edit),
             _ => self.state.learn_words(&new, &self.codes),
         }
-        if maker != Maker::Post || edit.changes_speed() {
+        if maker != Maker::Post || self.changes_speed(edit) {
             let skipped = self.state.may_be_skipped();
             speed_of_others::learn(self, &new, skipped);
         }

@@ -3,15 +3,15 @@
 //! says with the next motion; what it can't is refused, as it would go on as if the word stood.
 
 use fil_diag::Result;
+use fil_machine::functions::{Group, LengthOffset, Motion, Origin, SpeedMode, Spindle};
 use fil_machine::letters::{F, G, H, M, N, R, S, T};
 use fil_machine::locations::{self as loc, ControlFamily, CycleReturnCodes, FixtureForm};
 use fil_machine::modes::FeedMode;
 use fil_machine::rounding::Rounding;
-use fil_machine::setting::CodeAt;
 use fil_machine::{FunctionCode, Letter, letters};
 
 use super::{Control, Function};
-use crate::control_state::{CALLS, Compensation, Length, Meaning, Source, TOOL_CHANGE, modal};
+use crate::control_state::{Compensation, Length, Meaning, Source, modal};
 use crate::errors::PostCode;
 
 /// A word of a block.
@@ -27,44 +27,6 @@ pub(super) enum Maker {
     /// A text: the same, and none of its words was put on the tape by its value.
     Text,
 }
-
-/// Functions that end a program or a subprogram, M17 that of a SINUMERIK.
-const ENDS: [FunctionCode; 4] = [
-    FunctionCode::whole(2),
-    FunctionCode::whole(17),
-    FunctionCode::whole(30),
-    FunctionCode::whole(99),
-];
-
-/// Codes of coolant.
-const COOLANT: [CodeAt; 12] = [
-    loc::COOLANT_DEFAULT_CODE,
-    loc::COOLANT_FLOOD_CODE,
-    loc::COOLANT_FLOOD_LOW_CODE,
-    loc::COOLANT_FLOOD_MEDIUM_CODE,
-    loc::COOLANT_FLOOD_HIGH_CODE,
-    loc::COOLANT_MIST_CODE,
-    loc::COOLANT_TAP_CODE,
-    loc::COOLANT_AIR_CODE,
-    loc::COOLANT_THRU_LOW_CODE,
-    loc::COOLANT_THRU_MEDIUM_CODE,
-    loc::COOLANT_THRU_HIGH_CODE,
-    loc::COOLANT_OFF_CODE,
-];
-
-/// Auxiliary functions that the post says once, where the machine needs them.
-const SAID_ONCE: [CodeAt; 10] = [
-    loc::PROGRAM_END_CODE,
-    loc::PROGRAM_REWIND_CODE,
-    loc::TOOL_CHANGE_CODE,
-    loc::ROTARY_CLAMP_CODE,
-    loc::ROTARY_UNCLAMP_CODE,
-    loc::CYCLE_RIGID_TAP_MODE,
-    loc::MILL_TURN_MILLING_CODE,
-    loc::MILL_TURN_TURNING_CODE,
-    loc::THREAD_CHAMFER_ON_CODE,
-    loc::THREAD_CHAMFER_OFF_CODE,
-];
 
 /// A block of the post before and behind the edit.
 #[derive(Clone, Copy)]
@@ -96,17 +58,6 @@ impl<'w> Edit<'w> {
         functions(new, letter)
     }
 
-    /// True where the edit has put functions in that may do what the post does not know of.
-    pub(super) fn brings_functions(self) -> bool {
-        let of_m = |code| code == TOOL_CHANGE || CALLS.contains(&code);
-        self.put_in(G).next().is_some() || self.put_in(M).any(of_m)
-    }
-
-    /// True where S is another one, or counts otherwise.
-    pub(super) fn changes_speed(self) -> bool {
-        self.brings_functions() || self.changed().any(|(letter, _)| letter == S)
-    }
-
     /// A function of the block as it was made.
     fn had(self, is: impl Fn(FunctionCode) -> bool) -> bool {
         functions(self.before.iter(), G).any(is)
@@ -122,11 +73,6 @@ fn functions<'w>(
     letter: Letter,
 ) -> impl Iterator<Item = FunctionCode> {
     words.filter(move |word| word.0 == letter).filter_map(|word| FunctionCode::of_value(word.1))
-}
-
-/// Both are of one kind, whichever of it.
-fn is_alike(one: Meaning, other: Meaning) -> bool {
-    std::mem::discriminant(&one) == std::mem::discriminant(&other)
 }
 
 impl Control {
@@ -160,7 +106,7 @@ impl Control {
         self.are_said(edit.after);
         for word in edit.lost().filter(|word| matches!(word.0, G | M | S)) {
             let code = FunctionCode::of_value(word.1);
-            let is_coolant = word.0 == M && code.is_some_and(|code| self.is_code(code, &COOLANT));
+            let is_coolant = word.0 == M && code.is_some_and(|code| self.codes.is_coolant(code));
             let is_replaced = edit.put_in(word.0).next().is_some();
             if self.left_out.contains(&word) && !is_coolant && !is_replaced {
                 return PostCode::EditedWord.err(format!(
@@ -180,8 +126,15 @@ impl Control {
         self.left_out.retain(|word| !words.contains(word));
     }
 
-    fn is_code(&self, code: FunctionCode, group: &[CodeAt]) -> bool {
-        group.iter().any(|at| self.code_if_any(*at) == Some(code))
+    /// True where an edit has put functions in that may do what the post does not know of.
+    pub(super) fn brings_functions(&self, edit: Edit<'_>) -> bool {
+        let of_m = |code| self.changes_tool(code) || self.calls_program(code);
+        edit.put_in(G).next().is_some() || edit.put_in(M).any(of_m)
+    }
+
+    /// True where S is another one, or counts otherwise.
+    pub(super) fn changes_speed(&self, edit: Edit<'_>) -> bool {
+        self.brings_functions(edit) || edit.changed().any(|(letter, _)| letter == S)
     }
 
     fn may_miss(&self, (letter, value): Word, edit: Edit<'_>) -> bool {
@@ -204,84 +157,72 @@ impl Control {
     }
 
     fn may_miss_g(&self, code: FunctionCode, edit: Edit<'_>) -> bool {
-        let meaning = self.meaning(code);
-        let state = &self.state;
-        let is_replaced = || edit.put_in(G).any(|new| is_alike(self.meaning(new), meaning));
+        let Some(function) = self.codes.function(code) else { return true };
+        let (meaning, state) = (function.meaning, &self.state);
+        let is_replaced = || edit.put_in(G).any(|new| self.meaning(new).group() == meaning.group());
         match meaning {
-            Meaning::Motion => !self.is_thread(code) || edit.put_in(G).any(|new| self.is_thread(new)),
-            Meaning::Plane(_)
-            | Meaning::Distance(_)
-            | Meaning::Unit(_)
-            | Meaning::FeedMode(_)
-            | Meaning::Diameters
-            | Meaning::Unknown => true,
             Meaning::Compensation(Compensation::Off) => {
                 state.is(modal::CUTTER_COMP, Compensation::Off)
             }
             Meaning::Compensation(_) => edit.put_in(G).any(|new| {
                 matches!(self.meaning(new), Meaning::Compensation(side) if side != Compensation::Off)
             }),
-            Meaning::Cycle | Meaning::Turning | Meaning::TipControl => is_replaced(),
-            Meaning::CycleOff => state.is(modal::CYCLE, false),
-            Meaning::ReturnLevel => state.is(modal::RETURN_LEVEL, code),
-            Meaning::SurfaceSpeed(on) => state.is(modal::SURFACE_SPEED, on) || is_replaced(),
-            Meaning::OneBlock if self.is_code(code, &[loc::SPINDLE_MAX_CODE]) => false,
-            Meaning::OneBlock => {
-                let stays = |word: &Word| !matches!(word.0, G | M | N) && has(edit.after, word.0);
-                !(self.is_code(code, &[loc::DWELL_CODE]) && edit.before.iter().any(stays))
+            Meaning::Motion(Motion::Thread) => edit.put_in(G).any(|new| self.is_thread(new)),
+            Meaning::Cycle | Meaning::TurningCycle | Meaning::Tcpc => is_replaced(),
+            Meaning::CycleEnd => state.is(modal::CYCLE, false),
+            Meaning::ReturnPlane => state.is(modal::RETURN_LEVEL, code),
+            Meaning::SpeedMode(mode) => {
+                state.is(modal::SURFACE_SPEED, mode == SpeedMode::SurfaceSpeed) || is_replaced()
             }
-            Meaning::ToolLength if self.codes.takes_length(code) => {
+            Meaning::Dwell => {
+                let stays = |word: &Word| !matches!(word.0, G | M | N) && has(edit.after, word.0);
+                !edit.before.iter().any(stays)
+            }
+            Meaning::LengthOffset(LengthOffset::Cancel) => {
                 matches!(state.length(), Length::Unsaid | Length::Taken)
                     && state.is(modal::TCP, false)
             }
-            Meaning::ToolLength => {
-                is_replaced() || edit.put_in(G).any(|new| self.meaning(new) == Meaning::TipControl)
+            Meaning::LengthOffset(LengthOffset::Activate) => {
+                is_replaced() || edit.put_in(G).any(|new| self.meaning(new) == Meaning::Tcpc)
             }
-            Meaning::Tilt => false,
-            Meaning::Frame => {
-                let goes_to_machine =
-                    |code| self.codes.is_of_machine(code) || self.codes.is_home(code);
-                if goes_to_machine(code) {
-                    return edit.put_in(G).any(goes_to_machine);
-                }
+            Meaning::Origin(origin) if origin.is_of_machine() => {
+                edit.put_in(G).any(|new| self.codes.goes_to_machine(new))
+            }
+            Meaning::Origin(origin) if origin.is_offset() => {
                 let is_another = || edit.put_in(G).any(|new| self.chooses_offset(new));
-                self.chooses_offset(code) && (!self.names_offset(edit) || is_another())
+                !self.names_offset(edit) || is_another()
             }
+            _ => function.restorable,
         }
     }
 
     fn is_thread(&self, code: FunctionCode) -> bool {
-        self.is_code(code, &[loc::THREAD_CODE, loc::THREAD_VARYING_CODE])
+        self.meaning(code) == Meaning::Motion(Motion::Thread)
     }
 
     /// A word beside its function chooses the work offset: G54.1 P2.
     fn names_offset(&self, edit: Edit<'_>) -> bool {
         let letter = self.commons.read(loc::FIXTURE_EXTENDED_ADDRESS);
         let is_named = letter.is_some_and(|letter| has(edit.before, letter));
-        is_named && edit.had(|code| self.chooses_offset(code) && !self.codes.is_fixture(code))
+        let by_word = Meaning::Origin(Origin::NumberedOffset);
+        is_named && edit.had(|code| self.meaning(code) == by_word)
     }
 
     fn may_miss_m(&self, code: FunctionCode, edit: Edit<'_>) -> bool {
-        if ENDS.contains(&code) || self.is_code(code, &SAID_ONCE[..2]) {
-            let ends = |new| ENDS.contains(&new) || self.is_code(new, &SAID_ONCE[..2]);
-            return edit.put_in(M).any(ends);
+        if self.codes.ends_program(code) {
+            return edit.put_in(M).any(|new| self.codes.ends_program(new));
         }
-        let is_said_once = code == TOOL_CHANGE
-            || self.is_code(code, &SAID_ONCE)
-            || self.codes.is_spindle_range(code)
-            || self.codes.chooses_spindle(code);
         // A function in its place is how the shop writes it.
-        !is_said_once || edit.put_in(M).next().is_some()
+        self.codes.auxiliaries(code).all(|row| row.restorable) || edit.put_in(M).next().is_some()
     }
 
     /// The block gives its words a meaning of its own, which none may be taken from.
     fn may_miss_word(&self, letter: Letter, edit: Edit<'_>) -> bool {
-        let had = |meaning: Meaning| edit.had(|code| is_alike(self.meaning(code), meaning));
-        let is_of_block = had(Meaning::Tilt)
-            || had(Meaning::Cycle)
-            || had(Meaning::Turning)
+        let had = |group| edit.had(|code| self.meaning(code).group() == group);
+        let is_of_block = [Group::WorkPlane, Group::Cycle, Group::TurningCycle, Group::SpeedLimit]
+            .into_iter()
+            .any(had)
             || edit.had(|code| self.is_other_frame(code))
-            || edit.had(|code| self.is_code(code, &[loc::SPINDLE_MAX_CODE]))
             || letter == S && edit.had(|code| self.makes_another_speed(code))
             || self.is_fixed_beside_m(letter, edit);
         if is_of_block {
@@ -298,7 +239,7 @@ impl Control {
             && commons.read(loc::FIXTURE_EXTENDED_ADDRESS) == Some(letter)
             || commons.read(loc::FIXTURE_FORM) == FixtureForm::Word
                 && commons.read(loc::FIXTURE_ADDRESS) == Some(letter);
-        let is_length = letter == H && (had(Meaning::ToolLength) || had(Meaning::TipControl));
+        let is_length = letter == H && (had(Group::LengthOffset) || had(Group::Tcpc));
         let is_limit = commons.read(loc::SPINDLE_MAX_ADDRESS) == Some(letter);
         let is_time = letter == F && self.is_inverse(edit);
         !(is_thread && !is_axis
@@ -313,7 +254,9 @@ impl Control {
     /// read anew.
     fn makes_another_speed(&self, code: FunctionCode) -> bool {
         match self.meaning(code) {
-            Meaning::SurfaceSpeed(on) => !self.state.is(modal::SURFACE_SPEED, on),
+            Meaning::SpeedMode(mode) => {
+                !self.state.is(modal::SURFACE_SPEED, mode == SpeedMode::SurfaceSpeed)
+            }
             _ => false,
         }
     }
@@ -332,26 +275,25 @@ impl Control {
 
     /// A word beside M19 or M29: an angle, or the speed of a tap.
     fn is_fixed_beside_m(&self, letter: Letter, edit: Edit<'_>) -> bool {
-        let had = |at| functions(edit.before.iter(), M).any(|code| self.is_code(code, &[at]));
-        letter == S && had(loc::CYCLE_RIGID_TAP_MODE)
+        let had = |meaning| functions(edit.before.iter(), M).any(|m| self.codes.does(m, meaning));
+        letter == S && had(Meaning::RigidTap)
             || self.commons.read(loc::SPINDLE_ORIENT_ADDRESS) == Some(letter)
-                && had(loc::SPINDLE_ORIENT_CODE)
+                && had(Meaning::Spindle(Spindle::Orient))
     }
 
     /// A function of the frame that is no work offset: G53, G28, G52, G12.1.
     fn is_other_frame(&self, code: FunctionCode) -> bool {
-        self.meaning(code) == Meaning::Frame && !self.chooses_offset(code)
+        matches!(self.meaning(code), Meaning::Origin(origin) if !origin.is_offset())
     }
 
     /// True for a word whose value the post goes on from, whatever the tape says.
     fn counts_on_value(&self, (letter, value): Word, edit: Edit<'_>) -> bool {
         let had = |meaning| edit.had(|code| self.meaning(code) == meaning);
-        let moves_to_machine =
-            edit.had(|code| self.codes.is_of_machine(code) || self.codes.is_home(code));
+        let moves_to_machine = edit.had(|code| self.codes.goes_to_machine(code));
         let is_frame = edit.had(|code| self.is_other_frame(code)) && !moves_to_machine;
         let takes_length =
             letter == T && self.codes.tool_word_has_offset && value.rem_euclid(100.0) == 0.0;
-        had(Meaning::Tilt)
+        had(Meaning::WorkPlane)
             || is_frame
             || takes_length
             || letter == S && self.is_fixed_beside_m(letter, edit)
@@ -361,7 +303,7 @@ impl Control {
     /// The cycle of the block returns to the level before it, not to R.
     fn returns_to_initial(&self, edit: Edit<'_>) -> bool {
         let initial = self.code_if_any(loc::CYCLE_RETURN_INITIAL_CODE);
-        let is_level = |code: &FunctionCode| self.meaning(*code) == Meaning::ReturnLevel;
+        let is_level = |code: &FunctionCode| self.meaning(*code) == Meaning::ReturnPlane;
         let said = functions(edit.after.iter(), G).filter(is_level).last();
         self.commons.read(loc::CYCLE_RETURN_CODES) == CycleReturnCodes::Yes
             && initial.is_some()
@@ -385,7 +327,8 @@ impl Control {
 
     fn miss_g(&mut self, code: FunctionCode, edit: Edit<'_>) {
         let meaning = self.meaning(code);
-        if functions(edit.after.iter(), G).any(|said| is_alike(self.meaning(said), meaning)) {
+        if functions(edit.after.iter(), G).any(|said| self.meaning(said).group() == meaning.group())
+        {
             return;
         }
         let state = &mut self.state;
@@ -397,10 +340,10 @@ impl Control {
                 state.forget(modal::FEED_MODE, Source::Author);
                 state.doubt(F);
             }
-            Meaning::Diameters => state.forget(modal::DIAMETER_MODE, Source::Author),
+            Meaning::DiameterMode => state.forget(modal::DIAMETER_MODE, Source::Author),
             Meaning::Compensation(_) => state.forget(modal::CUTTER_COMP, Source::Author),
-            Meaning::CycleOff => state.forget(modal::CYCLE, Source::Author),
-            Meaning::Frame => {
+            Meaning::CycleEnd => state.forget(modal::CYCLE, Source::Author),
+            Meaning::Origin(_) => {
                 state.forget(modal::WORK_OFFSET, Source::Author);
                 let cause = self.block.cause.whole();
                 self.owe(Function::WorkOffset, |control| {
@@ -420,11 +363,11 @@ impl Control {
         let by_side = self.state.is(modal::MASTER_IS_SUB, true);
         let turns = |code: &FunctionCode| {
             self.codes.rotation(*code, by_side).is_some()
-                || self.is_code(*code, &[loc::SPINDLE_DEFAULT_CODE])
+                || self.codes.does(*code, Meaning::Spindle(Spindle::Default))
         };
         let turning = codes().find(turns);
-        let coolant: Vec<_> = codes().filter(|code| self.is_code(*code, &COOLANT)).collect();
-        let pauses = edit.had(|code| self.is_code(code, &[loc::DWELL_CODE]));
+        let coolant: Vec<_> = codes().filter(|code| self.codes.is_coolant(*code)).collect();
+        let pauses = edit.had(|code| self.meaning(code) == Meaning::Dwell);
         let speed = lost.iter().find(|word| word.0 == S && !pauses).map(|word| word.1);
         let cause = self.block.cause.whole();
         if turning.is_some() || speed.is_some() {
@@ -455,7 +398,7 @@ impl Control {
     /// Learns from a block of the post that was edited: what was taken out of it or changed was
     /// not refused.
     pub(super) fn learn_left(&mut self, edit: Edit<'_>) {
-        if edit.brings_functions() {
+        if self.brings_functions(edit) {
             self.state.learn_words(edit.after, &self.codes);
         } else {
             self.state.learn_own_words(edit.after, edit.before, &self.codes);

@@ -267,7 +267,17 @@ impl Control {
 
     /// True for a function that takes up the length of the tool.
     pub fn calls_length(&self, code: FunctionCode) -> bool {
-        self.codes.meaning(code) == Meaning::ToolLength && !self.codes.takes_length(code)
+        self.codes.calls_length(code)
+    }
+
+    /// True for an M code that changes the tool.
+    pub fn changes_tool(&self, code: FunctionCode) -> bool {
+        self.codes.does(code, Meaning::ToolChange)
+    }
+
+    /// True for an M code that calls a program, or returns from one.
+    pub fn calls_program(&self, code: FunctionCode) -> bool {
+        self.codes.calls_program(code)
     }
 
     /// True for a G function that chooses a work offset, by itself or by a word beside it.

@@ -129,7 +129,9 @@ impl Control {
     fn was_at_feed(&self) -> bool {
         let rapid = [loc::RAPID_CODE_XY, loc::RAPID_CODE_Z].map(|at| self.code_if_any(at));
         match self.state.get(modal::MOTION) {
-            Some(code) => self.meaning(code) == Meaning::Motion && !rapid.contains(&Some(code)),
+            Some(code) => {
+                matches!(self.meaning(code), Meaning::Motion(_)) && !rapid.contains(&Some(code))
+            }
             None => self.klartext.at_feed,
         }
     }

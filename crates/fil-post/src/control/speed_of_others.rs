@@ -25,7 +25,7 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
         );
         return;
     }
-    let is_of_speed = |code| matches!(control.meaning(code), Meaning::SurfaceSpeed(_));
+    let is_of_speed = |code| matches!(control.meaning(code), Meaning::SpeedMode(_));
     let changes = codes().any(is_of_speed);
     let is_of_feed = |code| matches!(control.meaning(code), Meaning::FeedMode(_));
     let ends_surface = !changes && control.codes.speeds_are_feeds() && codes().any(is_of_feed);

@@ -127,7 +127,7 @@ impl Control {
         if self.tables.family == ControlFamily::Sinumerik {
             sinumerik::reader::learn_words(self, words);
         }
-        if edit.is_none_or(Edit::changes_speed) {
+        if edit.is_none_or(|edit| self.changes_speed(edit)) {
             let skipped = self.state.may_be_skipped();
             speed_of_others::learn(self, &plain, skipped);
         }
@@ -135,7 +135,7 @@ impl Control {
         self.take_plane_back(&before);
         match edit {
             // The post has done what it wanted.
-            Some(edit) if !edit.brings_functions() => Ok(()),
+            Some(edit) if !self.brings_functions(edit) => Ok(()),
             _ => self.refuse_changes(before),
         }
     }

@@ -2,20 +2,13 @@
 //! rotary axes, tool changes, calls and the end of the program.
 
 use fil_machine::FunctionCode;
+use fil_machine::functions::ProgramEnd;
 
 use super::codes::Codes;
 use super::modal::{
     AXIS_CLAMP, GEAR, MASTER_IS_SUB, PROGRAM_END, SPINDLE, SPINDLE_HALTED, TOOL_CHANGED,
 };
-use super::{ControlState, Rotation, Source, TOOL_CHANGE};
-
-/// They call a program, or come back from one.
-pub const CALLS: [FunctionCode; 4] = [
-    FunctionCode::whole(97),
-    FunctionCode::whole(98),
-    FunctionCode::whole(99),
-    FunctionCode::whole(198),
-];
+use super::{ControlState, Meaning, Rotation, Source};
 
 impl ControlState {
     /// A tool change by its function came since the spindle was turned: many machines stop it.
@@ -31,11 +24,11 @@ impl ControlState {
 
     /// Learns what an auxiliary function does. A call of a subprogram may do anything.
     pub fn learn_auxiliary(&mut self, code: FunctionCode, codes: &Codes, source: Source) {
-        const END: [FunctionCode; 2] = [FunctionCode::whole(2), FunctionCode::whole(30)];
-        if END.contains(&code) {
+        let does = |meaning| codes.does(code, meaning);
+        if does(Meaning::ProgramEnd(ProgramEnd::Program)) {
             self.set(PROGRAM_END, true);
         }
-        if codes.chooses_spindle(code) {
+        if does(Meaning::MasterSpindle) {
             // Which one is counted then, and how it turns, says who writes the code.
             self.forget(MASTER_IS_SUB, source);
             self.set(SPINDLE, Rotation::InDoubt);
@@ -43,22 +36,22 @@ impl ControlState {
         if let Some(rotation) = codes.rotation(code, self.is(MASTER_IS_SUB, true)) {
             self.turns(rotation);
         }
-        if codes.stops_program(code) {
+        if does(Meaning::Stop) {
             self.set(SPINDLE_HALTED, true);
         }
         if let Some(clamps) = codes.clamps(code) {
             self.set(AXIS_CLAMP, clamps);
         }
-        if codes.is_spindle_range(code) {
+        if does(Meaning::Gear) {
             self.set(GEAR, code);
         }
-        if code == TOOL_CHANGE {
+        if does(Meaning::ToolChange) {
             self.has_tool(None);
             // A machine changes a tool with the spindle standing, and leaves it so.
             self.set(SPINDLE, Rotation::Standing);
             self.set(TOOL_CHANGED, true);
         }
-        if CALLS.contains(&code) {
+        if codes.calls_program(code) {
             self.doubt_all(source);
         }
     }

@@ -1,6 +1,7 @@
 //! What the control learns from the functions and words of a block.
 
 use fil_machine::address::Addresses;
+use fil_machine::functions::{Origin, SpeedMode};
 use fil_machine::{FunctionCode, letters};
 
 use super::modal::{
@@ -40,7 +41,7 @@ impl ControlState {
     #[inline]
     pub fn learn_code(&mut self, code: FunctionCode, codes: &Codes, source: Source) {
         match codes.meaning(code) {
-            Meaning::Motion => {
+            Meaning::Motion(_) => {
                 self.set(MOTION, code);
                 if codes.motion_ends_cycle() {
                     self.set(CYCLE, false);
@@ -77,32 +78,31 @@ impl ControlState {
                 self.set(CYCLE_CODE, code);
                 self.forget(MOTION, source);
             }
-            Meaning::CycleOff => {
+            Meaning::CycleEnd => {
                 self.set(CYCLE, false);
                 self.forget(MOTION, source);
             }
-            Meaning::SurfaceSpeed(on) => {
-                self.set(SURFACE_SPEED, on);
+            Meaning::SpeedMode(mode) => {
+                self.set(SURFACE_SPEED, mode == SpeedMode::SurfaceSpeed);
                 if codes.speeds_are_feeds() {
                     self.doubt(letters::F);
                 }
                 let mode = codes.feed_behind_speed(code, self.get(FEED_MODE));
                 self.groups.set_if_known(FEED_MODE, mode, source);
             }
-            Meaning::Diameters => self.set(DIAMETER_MODE, true),
-            Meaning::OneBlock => {}
-            Meaning::ReturnLevel => {
+            Meaning::DiameterMode => self.set(DIAMETER_MODE, true),
+            Meaning::ReturnPlane => {
                 self.set(RETURN_LEVEL, code);
                 self.doubt(letters::R);
             }
-            Meaning::Turning => {
+            Meaning::TurningCycle => {
                 self.forget(MOTION, source);
                 self.doubt_axes();
                 self.doubt(letters::F);
             }
-            Meaning::ToolLength => {
+            Meaning::LengthOffset(does) => {
                 self.doubt(letters::XYZ[2]);
-                self.learn_length(code, codes);
+                self.learn_length(does, codes);
                 if source == Source::Author {
                     self.set(LENGTH_WORD, true);
                 }
@@ -111,24 +111,26 @@ impl ControlState {
                     self.doubt_axes();
                 }
             }
-            Meaning::TipControl => {
+            Meaning::Tcpc => {
                 self.set(TCP, true);
                 self.calls_length(true);
                 self.doubt_axes();
             }
-            Meaning::Frame => {
+            Meaning::Origin(origin) => {
                 self.doubt_axes();
-                if codes.is_fixture(code) {
+                if origin == Origin::WorkOffset {
                     self.set(WORK_OFFSET, code);
-                } else if !codes.keeps_fixture(code) {
+                } else if !origin.keeps_offset() {
                     self.forget(WORK_OFFSET, source);
                 }
             }
-            Meaning::Tilt => {
+            Meaning::WorkPlane => {
                 self.forget(WORK_PLANE, source);
                 self.doubt_axes();
             }
             Meaning::Unknown => self.doubt_all(source),
+            // It acts in its block alone, or is an M code.
+            _ => {}
         }
     }
 }

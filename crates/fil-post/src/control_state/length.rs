@@ -1,7 +1,8 @@
 //! Whether Z counts from the tip of the tool.
 
+use fil_machine::functions::LengthOffset;
 use fil_machine::locations::{self as loc, ControlFamily, ToolFormat};
-use fil_machine::{Commons, FunctionCode, Letter, letters};
+use fil_machine::{Commons, Letter, letters};
 
 use super::modal::{LENGTH, LENGTH_OFFSET, LENGTH_WORD};
 use super::{Codes, ControlState, Source};
@@ -43,9 +44,9 @@ impl ControlState {
 
     /// A function of the length stands in a block. Tool-tip control takes that of the last LOADTL,
     /// whatever another function has called.
-    pub(super) fn learn_length(&mut self, code: FunctionCode, codes: &Codes) {
+    pub(super) fn learn_length(&mut self, does: LengthOffset, codes: &Codes) {
         if self.length() != Length::OfAnotherTool || !codes.tip_control {
-            self.calls_length(!codes.takes_length(code));
+            self.calls_length(does == LengthOffset::Activate);
         }
     }
 

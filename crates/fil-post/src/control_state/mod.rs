@@ -16,8 +16,9 @@ mod others;
 mod skip;
 pub(crate) mod text;
 
-pub use auxiliaries::CALLS;
-pub use codes::{Codes, Meaning, THREAD_OF_OSP, VARYING_LEADS_OF_SINUMERIK};
+pub use codes::{Codes, THREAD_OF_OSP, VARYING_LEADS_OF_SINUMERIK};
+pub use fil_machine::functions::Meaning;
+pub use fil_machine::modes::{Compensation, Distance};
 pub use text::{TextFrame, TextWords, read as text_words};
 
 use fil_machine::locations as loc;
@@ -33,26 +34,6 @@ use modal::{
     SPINDLE, SURFACE_SPEED, TOOL, UNITS,
 };
 pub use modal::{Know, Source};
-
-/// How coordinates count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Distance {
-    /// From the zero of the program (G90).
-    Absolute,
-    /// From the point before (G91).
-    Incremental,
-}
-
-/// On which side of the path the cutter runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Compensation {
-    /// On the path (G40).
-    Off,
-    /// Left of the path (G41).
-    Left,
-    /// Right of the path (G42).
-    Right,
-}
 
 /// Where the path stands in cutter compensation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

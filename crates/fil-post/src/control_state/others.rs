@@ -1,12 +1,13 @@
 //! What the control knows behind words and texts that the post has not made: POSTN, PREFUN
 //! and AUXFUN, INSERT, the machine's own texts.
 
+use fil_machine::functions::Origin;
 use fil_machine::modes::Unit;
 use fil_machine::{FunctionCode, Letter, letters};
 
 use super::modal::{CYCLE, DISTANCE, MOTION, TOOL, TOOL_WORD, UNITS, WORK_OFFSET, WORK_PLANE};
 use super::text::{self, TextFrame, TextWords};
-use super::{AXIS_LETTERS, Codes, ControlState, Distance, Meaning, Source, TOOL_CHANGE};
+use super::{AXIS_LETTERS, Codes, ControlState, Distance, Meaning, Source};
 
 /// What preparatory functions of others do to where the axes stand.
 #[derive(Clone, Copy, Debug, Default)]
@@ -40,7 +41,7 @@ impl Ways {
             match (*letter, FunctionCode::of_value(*value)) {
                 (letters::G, Some(code)) if Some(code) == fixture => {}
                 (letters::G, Some(code)) => ways.add(code, codes),
-                (letters::M, Some(code)) => ways.changes |= code == TOOL_CHANGE,
+                (letters::M, Some(code)) => ways.changes |= codes.does(code, Meaning::ToolChange),
                 (letters::T, _) => ways.changes |= codes.tool_word_changes,
                 _ => {}
             }
@@ -52,19 +53,17 @@ impl Ways {
     }
 
     fn add(&mut self, code: FunctionCode, codes: &Codes) {
-        const DWELL: FunctionCode = FunctionCode::whole(4);
-        let is_home = codes.is_home(code);
-        self.home |= is_home;
-        self.of_machine |= is_home || codes.is_of_machine(code);
         match codes.meaning(code) {
-            Meaning::Frame => {
+            Meaning::Origin(origin) => {
+                self.home |= origin == Origin::Home;
+                self.of_machine |= origin.is_of_machine();
                 self.shifts |= !self.of_machine;
-                self.says_zero |= !self.of_machine && !codes.chooses_offset(code);
+                self.says_zero |= !self.of_machine && !origin.is_offset();
             }
-            Meaning::ToolLength => self.length = true,
-            Meaning::Tilt | Meaning::TipControl => self.turns = true,
-            Meaning::Turning => (self.astray, self.returns) = (true, true),
-            Meaning::OneBlock => self.pauses |= code == DWELL,
+            Meaning::LengthOffset(_) => self.length = true,
+            Meaning::WorkPlane | Meaning::Tcpc => self.turns = true,
+            Meaning::TurningCycle => (self.astray, self.returns) = (true, true),
+            Meaning::Dwell => self.pauses = true,
             _ => {}
         }
     }
@@ -120,7 +119,7 @@ impl ControlState {
         of(letters::G).for_each(|code| self.learn_code(code, codes, Source::Author));
         of(letters::M).for_each(|code| self.learn_auxiliary(code, codes, Source::Author));
         let calls = of(letters::G)
-            .any(|code| matches!(codes.meaning(code), Meaning::ToolLength | Meaning::TipControl));
+            .any(|code| matches!(codes.meaning(code), Meaning::LengthOffset(_) | Meaning::Tcpc));
         for word in words.iter().filter(|(letter, _)| !matches!(*letter, letters::G | letters::M)) {
             match word.0 {
                 letters::H if !made.contains(word) => self.names_length(word.1, calls),

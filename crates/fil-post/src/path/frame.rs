@@ -385,7 +385,7 @@ pub(super) fn before(control: &mut Control, operation: &Operation) -> Result<()>
                 && !control.state.is(modal::WORK_PLANE, false) =>
         {
             match control.meaning(*code) {
-                Meaning::Frame | Meaning::Tilt | Meaning::TipControl | Meaning::Unit(_) => {
+                Meaning::Origin(_) | Meaning::WorkPlane | Meaning::Tcpc | Meaning::Unit(_) => {
                     PostCode::Frame.err_with(
                         "PREFUN: the function would move the frame in force",
                         "Put it where the tool stands along Z of the machine, or write positions \

@@ -26,7 +26,7 @@ use crate::control::sinumerik::{reader, transformation};
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::{modes, spindle};
 use crate::control::{family, full_turn};
-use crate::control_state::{CALLS, Meaning, Rotation, Source, TOOL_CHANGE, modal, text};
+use crate::control_state::{Meaning, Rotation, Source, modal, text};
 use crate::errors::PostCode;
 use crate::operation::{
     Arc, Feed, MotionKind, Operation, SideSpindle, Spindle, SpindleTurn, Target,
@@ -351,14 +351,14 @@ fn changes_plane(control: &Control, operation: &Operation) -> bool {
     let changes = |letter: Letter, code: FunctionCode| match letter {
         letters::G => matches!(
             control.meaning(code),
-            Meaning::Frame
+            Meaning::Origin(_)
                 | Meaning::Cycle
                 | Meaning::Plane(_)
                 | Meaning::Unit(_)
                 | Meaning::Unknown
         ),
         letters::T => true,
-        letters::M => code == TOOL_CHANGE || CALLS.contains(&code),
+        letters::M => control.changes_tool(code) || control.calls_program(code),
         _ => false,
     };
     let is_unread = |text: &str| text::read(text).is_none();

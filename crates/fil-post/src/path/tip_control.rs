@@ -427,7 +427,9 @@ pub(super) fn before(post: &mut Post, operation: &Operation) -> Result<()> {
         Operation::Compensation(wanted) if wanted.side != Compensation::Off => "CUTCOM",
         Operation::Function(letter, code) if *letter == fil_machine::letters::G => {
             match control.meaning(*code) {
-                Meaning::Frame | Meaning::Cycle | Meaning::Plane(_) | Meaning::Unit(_) => "PREFUN",
+                Meaning::Origin(_) | Meaning::Cycle | Meaning::Plane(_) | Meaning::Unit(_) => {
+                    "PREFUN"
+                }
                 _ => return Ok(()),
             }
         }

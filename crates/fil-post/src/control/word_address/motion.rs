@@ -432,7 +432,7 @@ fn warn_of_still_blocks(control: &mut Control) {
 fn cuts(control: &Control) -> bool {
     let rapid = [loc::RAPID_CODE_XY, loc::RAPID_CODE_Z].map(|at| control.code_if_any(at));
     let mut said = control.block.g_codes().iter().map(|(code, _)| *code);
-    let motion = said.rfind(|code| control.meaning(*code) == Meaning::Motion);
+    let motion = said.rfind(|code| matches!(control.meaning(*code), Meaning::Motion(_)));
     let motion = motion.or(control.state.get(modal::MOTION));
     !rapid.contains(&motion)
 }

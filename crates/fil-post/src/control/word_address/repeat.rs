@@ -96,8 +96,10 @@ fn refuse_mode(control: &Control, letter: Letter, value: f64) -> Result<()> {
     if letter == letters::M && function == Some(TOOL_CHANGE) {
         return PostCode::WordForm.err("REPEAT: M6 in each motion would change the tool");
     }
-    let meaning = function.map(|code| control.meaning(code));
-    if letter == letters::G && meaning != Some(Meaning::OneBlock) {
+    let is_of_block = function.is_some_and(|code| {
+        matches!(control.meaning(code), Meaning::OneBlock | Meaning::Dwell | Meaning::SpeedLimit)
+    });
+    if letter == letters::G && !is_of_block {
         return PostCode::WordForm
             .err(format!("REPEAT: G{value} in each motion would change a mode"));
     }

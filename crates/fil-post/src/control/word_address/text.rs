@@ -58,7 +58,7 @@ fn say_what_it_counts_on(control: &mut Control, block: &str) -> Result<()> {
         && control.code_if_any(loc::SPINDLE_CSS_CODE).is_some()
         && !(pauses || says(loc::SPINDLE_MAX_CODE))
         && words.iter().any(|(letter, _)| *letter == S)
-        && !is_said(|meaning| matches!(meaning, Meaning::SurfaceSpeed(_)));
+        && !is_said(|meaning| matches!(meaning, Meaning::SpeedMode(_)));
     if needs_unit {
         let unit = control.require_unit()?;
         modes::require(control, unit)?;
