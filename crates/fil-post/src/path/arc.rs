@@ -10,6 +10,7 @@ use fil_machine::modes::{INCH, Plane};
 use nalgebra::{Point3, Vector3};
 
 use super::long_arc::{self, Parts};
+use super::rotary::Solution;
 use super::{feed_rules, frame, rotary};
 use crate::control::word_address::arc::{self as words, PlaneArc};
 use crate::control::{Function, family};
@@ -66,18 +67,24 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     let tool = Some(target.axis).filter(|_| !turns);
     post.path.course.arc(ends.map(|end| arc.axis.cross(&end)), sweep, tool, arc.line);
     let turns_axis = target.axis != post.path.stands;
+    if post.control.tables.frame_output && !post.writes_tip() {
+        let axis = post.path.stands;
+        frame::turn_to(post, Target { axis, ..target }, false)?;
+    }
     let whole =
         if turns_axis { None } else { in_plane(post, arc, start, (radius, sweep), target)? };
     let whole = match whole {
-        Some(whole) if is_across_compensation(post, &whole)? => None,
-        Some(whole) if !family::has_arc(&post.control, whole.plane) => None,
+        Some((whole, _)) if is_across_compensation(post, &whole)? => None,
+        Some((whole, _)) if !family::has_arc(&post.control, whole.plane) => None,
         whole => whole,
     };
-    let Some(mut whole) = whole else {
-        refuse_start_elsewhere(post, start)?;
+    let Some((mut whole, solution)) = whole else {
+        let solution = where_it_begins(post, start)?;
+        rotary::establish(post, solution)?;
         post.warn(PostCode::ArcLines, "an arc was written as short lines".to_string());
         return long_arc::as_lines(post, arc, start, sweep, target);
     };
+    rotary::establish(post, solution)?;
     check_travel(post, &whole)?;
     family::ready_for_arc(&mut post.control, whole.plane)?;
     let Some(stands) = words::start_on_tape(&post.control, &whole.from) else {
@@ -119,20 +126,23 @@ pub(super) fn refuse_nearly_full(post: &Post, arc: &Arc, end: Target) -> Result<
         .err(format!("the end lies {apart:.5} from the start: a full turn, or none"))
 }
 
-/// Refuses an arc as lines whose first line would not begin on it.
-fn refuse_start_elsewhere(post: &mut Post, start: Point3<f64>) -> Result<()> {
+/// How the machine stands where an arc as lines begins.
+///
+/// # Errors
+/// The tape does not stand there: the first line would not begin on the arc.
+fn where_it_begins(post: &Post, start: Point3<f64>) -> Result<Solution> {
     if post.control.tables.mills() {
-        return Ok(());
+        return Ok(Solution::Still);
     }
     let here = Target { point: start, axis: post.path.stands, word: 0 };
-    let from = if post.writes_tip() {
+    let (from, solution) = if post.writes_tip() {
         let (tip, _) = rotary::transformed(post, here);
-        [tip.x, tip.y, tip.z, 0.0, 0.0]
+        ([tip.x, tip.y, tip.z, 0.0, 0.0], Solution::Still)
     } else {
         rotary::position_of(post, here)?
     };
     match words::start_on_tape(&post.control, &from) {
-        Some(_) => Ok(()),
+        Some(_) => Ok(solution),
         None => PostCode::ArcStart.err(ELSEWHERE),
     }
 }
@@ -242,14 +252,14 @@ pub(super) fn sweep(arc: &Arc, [from, to]: [Vector3<f64>; 2]) -> f64 {
     part + FULL * arc.turns
 }
 
-/// The arc in machine coordinates; `None` when the control can't say it as an arc.
+/// The arc in machine coordinates, and how the machine comes to its end; `None` when the control can't say it as an arc.
 fn in_plane(
-    post: &mut Post,
+    post: &Post,
     arc: &Arc,
     start: Point3<f64>,
     (radius, sweep): (f64, f64),
     target: Target,
-) -> Result<Option<PlaneArc>> {
+) -> Result<Option<(PlaneArc, Solution)>> {
     if post.writes_tip() {
         return Ok(None);
     }
@@ -259,8 +269,9 @@ fn in_plane(
     }
     let mirrored = transformation.is_some_and(|trans| trans.mirrors());
     let is_fixed = transformation.is_none() && !post.control.tables.chain().has_rotary();
-    let mut machine = |point: Point3<f64>| {
+    let machine = |point: Point3<f64>| {
         rotary::position_of(post, Target { point, axis: target.axis, word: 0 })
+            .map(|(position, _)| position)
     };
     let linear = |position: Position| Vector3::new(position[0], position[1], position[2]);
     let (center, from) = (linear(machine(arc.center)?), machine(start)?);
@@ -270,7 +281,7 @@ fn in_plane(
         let tip = linear(machine(arc.center + arc.axis)?);
         (tip - center) * if mirrored { -1.0 } else { 1.0 }
     };
-    let to = machine(target.point)?;
+    let (to, solution) = rotary::position_of(post, target)?;
     let found =
         Plane::ALL.into_iter().find(|plane| normal[plane.normal()].abs() > 1.0 - NEAR_PLANE);
     let Some(plane) = found else { return Ok(None) };
@@ -289,7 +300,7 @@ fn in_plane(
     if !is_allowed || !circles {
         return Ok(None);
     }
-    Ok(Some(PlaneArc {
+    let arc = PlaneArc {
         plane,
         counterclockwise: normal[plane.normal()] > 0.0,
         center: axes.map(|number| center[number]),
@@ -300,7 +311,8 @@ fn in_plane(
         sweep,
         word: rotary::word_of(post, target),
         cause: arc.cause,
-    }))
+    };
+    Ok(Some((arc, solution)))
 }
 
 /// Refuses an arc that bulges out of the travel between its ends.

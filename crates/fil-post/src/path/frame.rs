@@ -13,6 +13,7 @@ use fil_machine::commons::EMPTY;
 use fil_machine::locations as loc;
 use nalgebra::{Point3, Rotation3, Vector3};
 
+use super::rotary::Solution;
 use super::{height, machine_position, rotary, tip_control};
 use crate::control::needs::Act;
 use crate::control::word_address::motion::{Motion, RapidCode};
@@ -49,20 +50,23 @@ pub struct TiltedFrame {
 /// The words of a motion to a point, in the frame in force.
 ///
 /// # Errors
-/// As [`turn_to`]; a position outside the travel.
+/// None is in force for this tool axis; a position outside the travel.
 #[cold]
 pub(super) fn position_of(
-    post: &mut Post,
+    post: &Post,
     point: Point3<f64>,
     axis: Vector3<f64>,
-) -> Result<Position> {
-    let frame = frame_for(post, axis, false)?;
-    post.control.tip.is_away = false;
+) -> Result<(Position, Solution)> {
+    let frame = along(post, normalized(axis)?).filter(|frame| is_in_force(&post.control, frame));
+    let Some(frame) = frame else {
+        return PostCode::Frame.err("no tilted frame has begun for this tool axis");
+    };
     let tables = &post.control.tables;
     let linear = tables.chain().linear(point, frame.angles);
     tables.check_travel(&[linear.x, linear.y, linear.z, 0.0, 0.0], AxisSet::LINEAR)?;
     let point = frame.turn.map_or(point, |turn| turn.inverse() * point);
-    Ok([point.x, point.y, point.z, frame.angles[0], frame.angles[1]])
+    let [first, second] = frame.angles;
+    Ok(([point.x, point.y, point.z, first, second], Solution::InFrame))
 }
 
 /// Refuses a point on the way, as the words of the frame in force name it, outside the travel
@@ -78,30 +82,34 @@ pub(super) fn check_on_the_way(post: &Post, point: [f64; 3]) -> Result<()> {
     post.control.tables.check_travel(&[at.x, at.y, at.z, 0.0, 0.0], AxisSet::LINEAR)
 }
 
+/// The direction of a tool axis.
+fn normalized(axis: Vector3<f64>) -> Result<Vector3<f64>> {
+    axis.try_normalize(1e-9)
+        .ok_or_else(|| PostCode::AxisLength.diag("the tool axis has length zero"))
+}
+
+/// The frame that motions were last written in, where it is that of a tool axis.
+fn along(post: &Post, axis: Vector3<f64>) -> Option<TiltedFrame> {
+    post.path.frame.filter(|frame| (frame.axis - axis).norm() < SAME_AXIS)
+}
+
+/// The control is in a frame, and the machine stands as it wants it.
+fn is_in_force(control: &Control, frame: &TiltedFrame) -> bool {
+    control.state.is(modal::WORK_PLANE, frame.turn.is_some()) && stands_at(control, frame.angles)
+}
+
 /// Brings the machine and the control into the frame of a target; says whether it began
 /// there.
 ///
 /// # Errors
-/// A motion at feed that would turn the machine; as [`frame_for`].
+/// A motion at feed that would turn the machine; as [`begin`].
 #[cold]
 pub(super) fn turn_to(post: &mut Post, target: Target, at_feed: bool) -> Result<bool> {
-    let (_, axis) = rotary::transformed(post, target);
-    let frames = post.path.frames;
-    frame_for(post, axis, at_feed)?;
-    Ok(post.path.frames != frames)
-}
-
-fn frame_for(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFrame> {
-    let Some(axis) = axis.try_normalize(1e-9) else {
-        return PostCode::AxisLength.err("the tool axis has length zero");
-    };
-    let tilted = post.control.state.get(modal::WORK_PLANE);
-    let same = post.path.frame.filter(|frame| (frame.axis - axis).norm() < SAME_AXIS);
-    if let Some(frame) = same.filter(|frame| {
-        tilted == Some(frame.turn.is_some()) && stands_at(&post.control, frame.angles)
-    }) {
+    let axis = normalized(rotary::transformed(post, target).1)?;
+    let same = along(post, axis);
+    if same.is_some_and(|frame| is_in_force(&post.control, &frame)) {
         post.path.chosen = None;
-        return Ok(frame);
+        return Ok(false);
     }
     if at_feed && same.is_none() && post.path.frame.is_some() && !post.control.tip.is_away {
         return PostCode::Frame.err_with(
@@ -111,11 +119,16 @@ fn frame_for(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<Tilte
              with rotary.frame_output = 0.",
         );
     }
-    begin(post, axis, at_feed)
+    begin(post, axis, at_feed)?;
+    Ok(true)
 }
 
 /// Turns the machine to a tool axis and begins the frame there.
-fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFrame> {
+///
+/// # Errors
+/// Cutter compensation; blocks that may be skipped; a tool axis out of reach, or one whose angles
+/// name it not exactly enough; as [`away`] and [`refuse_at_feed`].
+fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<()> {
     let control = &mut post.control;
     control.begin()?;
     control.require_unit()?;
@@ -156,11 +169,9 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFra
         full_turn::clamp(&mut post.control, true)?;
     }
     post.path.interrupt();
-    let frame = TiltedFrame { axis, angles, turn };
-    post.path.frame = Some(frame);
-    post.path.frames += 1;
+    post.path.frame = Some(TiltedFrame { axis, angles, turn });
     post.path.rotary = Some(angles);
-    Ok(frame)
+    Ok(())
 }
 
 /// Refuses a frame that begins in a motion at feed from where the tool does not stand behind its

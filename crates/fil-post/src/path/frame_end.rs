@@ -43,7 +43,7 @@ pub(super) fn go_up_to(post: &mut Post, level: f64) -> Result<()> {
     if rise <= 0.0 {
         return Ok(());
     }
-    turned_apart::refuse_level(post)?;
+    turned_apart::settle_level(post)?;
     let z = z + rapid_lean::way_along(&post.control, angles, rise)?;
     rise_to(post, z)
 }

@@ -11,6 +11,7 @@ use fil_machine::locations::{
 use fil_machine::modes::FeedMode;
 
 use super::cycle::{Cycle, CycleFeed, CycleKind, Hole};
+use super::rotary::Solution;
 use super::{Since, expand, frame, mill_turn, rapid, rapid_turn, rotary, scaled_lead, tip_hole};
 use crate::control::needs::Act;
 use crate::control::place::refuse_unknown;
@@ -68,7 +69,9 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         (cycle.initial, cycle.above, cycle.in_force) = (None, None, None);
     }
     family::ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
-    let (position, mut hole) = locate(post, cycle, target)?;
+    post.control.ready_length()?;
+    let (position, mut hole, solution) = locate(post, cycle, target)?;
+    rotary::establish(post, solution)?;
     refuse_beside_the_axis(&post.control, &position, &hole)?;
     warn_of_surface_speed(post);
     refuse_without_depth(&post.control, cycle, &position, &hole)?;
@@ -297,19 +300,19 @@ pub fn retract(post: &mut Post, ended: &Cycle) -> Result<()> {
     rapid::rapid(&mut post.control, &Motion::along(along, level), cause)
 }
 
-/// Where the hole lies: the position above it, and its levels along the axis that it
-/// runs along.
-fn locate(post: &mut Post, cycle: &Cycle, target: Target) -> Result<(Position, Hole)> {
-    post.control.ready_length()?;
+/// Where the hole lies: the position above it with how the machine comes there, and its levels
+/// along the axis that it runs along.
+fn locate(post: &Post, cycle: &Cycle, target: Target) -> Result<(Position, Hole, Solution)> {
     let axis = target.axis.normalize();
     let offset = |by: f64| Target { point: target.point + axis * by, ..target };
-    let at = rotary::position_of(post, target)?;
+    let (at, solution) = rotary::position_of(post, target)?;
     if post.control.tables.frame_output {
         let [bottom, clear] = [at[2] - cycle.depth, at[2] + cycle.clear];
-        return Ok((at, Hole { along: 2, bottom, clear, initial: clear, to_initial: false }));
+        let hole = Hole { along: 2, bottom, clear, initial: clear, to_initial: false };
+        return Ok((at, hole, solution));
     }
-    let bottom = rotary::position_of(post, offset(-cycle.depth))?;
-    let clear = rotary::position_of(post, offset(cycle.clear))?;
+    let (bottom, _) = rotary::position_of(post, offset(-cycle.depth))?;
+    let (clear, _) = rotary::position_of(post, offset(cycle.clear))?;
     let differs = |axis: &usize| (clear[*axis] - bottom[*axis]).abs() > SAME;
     let moving: Vec<usize> = (0..AXES).filter(differs).collect();
     let [along @ 0..=2] = moving[..] else {
@@ -320,7 +323,7 @@ fn locate(post: &mut Post, cycle: &Cycle, target: Target) -> Result<(Position, H
         );
     };
     let (bottom, clear) = (bottom[along], clear[along]);
-    Ok((at, Hole { along, bottom, clear, initial: clear, to_initial: false }))
+    Ok((at, Hole { along, bottom, clear, initial: clear, to_initial: false }, solution))
 }
 
 /// Refuses a hole from a height that is not known: the control would go across at it.

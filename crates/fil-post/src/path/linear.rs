@@ -65,7 +65,8 @@ pub(super) fn go(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
     let before = post.path.rotary;
     let word = rotary::word_of(post, target);
     let mut motion = Motion::new(Position::default(), AxisSet::ALL, word);
-    rotary::find_position(post, target, &mut motion.position)?;
+    let solution = rotary::find_position(post, target, &mut motion.position)?;
+    rotary::establish(post, solution)?;
     if post.control.is_compensated() {
         rotary::refuse_compensated(post, before)?;
     }

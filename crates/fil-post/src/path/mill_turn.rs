@@ -19,6 +19,7 @@ use fil_machine::{FunctionCode, Letter, letters};
 use nalgebra::{Point3, Vector3};
 
 use super::cycle::{CycleFeed, CycleKind};
+use super::rotary::Solution;
 use super::{feed_rules, functions_of_others, rotary, thread};
 use crate::control::Control;
 use crate::control::needs::Act;
@@ -163,10 +164,10 @@ fn within_axes(post: &mut Post, feed: Feed, to: &Position) -> Feed {
 /// # Errors
 /// A tool axis the machine can't reach; a way beside the axis of the spindle without Y.
 pub(super) fn position_of(
-    post: &mut Post,
+    post: &Post,
     point: Point3<f64>,
     axis: Vector3<f64>,
-) -> Result<Position> {
+) -> Result<(Position, Solution)> {
     let last = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post))[0];
     let has_y = has_y(&post.control);
     let asked = match lie(axis)? {
@@ -188,8 +189,7 @@ pub(super) fn position_of(
         }
         linear.y = 0.0;
     }
-    post.path.rotary = Some([c, 0.0]);
-    Ok([linear.x, linear.y, linear.z, c, 0.0])
+    Ok(([linear.x, linear.y, linear.z, c, 0.0], Solution::OfLiveTool([c, 0.0])))
 }
 
 /// The angle and whole turns on top that lies nearest to the last one within the travel.
@@ -254,7 +254,8 @@ pub(super) fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Resu
             Ok(true)
         }
         MotionKind::Rapid(cause) if !axial => {
-            let position = position_of(post, point, axis)?;
+            let (position, solution) = position_of(post, point, axis)?;
+            rotary::establish(post, solution)?;
             let word = rotary::word_of(post, target);
             let motion = Motion::new(position, AxisSet::ALL, word);
             crossing::rapid(&mut post.control, &motion, cause)?;

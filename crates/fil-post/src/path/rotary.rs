@@ -2,7 +2,7 @@
 
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet, Position};
-use fil_machine::axis_chain;
+use fil_machine::axis_chain::{self, Turn};
 use fil_machine::errors::MachineCode;
 use nalgebra::{Point3, Vector3};
 
@@ -18,14 +18,44 @@ use crate::post::Post;
 /// A smaller turn of a rotary axis counts as none, degrees.
 const STILL: f64 = 1e-9;
 
-/// Positions of the axes for a target; the rotary axes are then taken to stand there.
+/// How the machine comes to a position: what is kept of it once it goes there.
+#[derive(Clone, Copy, Debug)]
+pub enum Solution {
+    /// No rotary axis takes part.
+    Still,
+    /// They stand as the tilted frame in force has turned them.
+    InFrame,
+    /// They stand at these angles, degrees.
+    Angles {
+        /// The angles.
+        angles: [f64; 2],
+        /// Those that are the nearest if no axis has limits.
+        free: [f64; 2],
+        /// Those with their sines.
+        turns: [Turn; 2],
+    },
+    /// The same of a live tool, where C is the main spindle.
+    OfLiveTool([f64; 2]),
+    /// The same under tool-tip control.
+    OfTip {
+        /// The angles.
+        angles: [f64; 2],
+        /// Those that are the nearest if no axis has limits.
+        free: [f64; 2],
+        /// The program says the direction of the tool by a vector.
+        by_vector: bool,
+    },
+}
+
+/// Positions of the axes for a target, and how the machine comes to them. A tilted frame or
+/// tool-tip control that it needs must be in force.
 ///
 /// # Errors
 /// The machine can't reach the tool axis.
-pub fn position_of(post: &mut Post, target: Target) -> Result<Position> {
+pub fn position_of(post: &Post, target: Target) -> Result<(Position, Solution)> {
     let mut position = Position::default();
-    find_position(post, target, &mut position)?;
-    Ok(position)
+    let solution = find_position(post, target, &mut position)?;
+    Ok((position, solution))
 }
 
 /// The same in its place: to copy what was written number by number just before makes the
@@ -34,26 +64,69 @@ pub fn position_of(post: &mut Post, target: Target) -> Result<Position> {
 /// # Errors
 /// As [`position_of`].
 #[inline(always)]
-pub fn find_position(post: &mut Post, target: Target, position: &mut Position) -> Result<()> {
+pub fn find_position(post: &Post, target: Target, position: &mut Position) -> Result<Solution> {
     let (point, axis) = transformed(post, target);
     let chain = post.control.tables.chain();
     if !chain.has_rotary() && axis == chain.tool.into_inner() {
         *position = [point.x, point.y, point.z, 0.0, 0.0];
-        return Ok(());
+        return Ok(Solution::Still);
     }
     if needs_more(post) {
-        *position = position_in_mode(post, point, axis)?;
-        return Ok(());
+        let (found, solution) = position_in_mode(post, point, axis)?;
+        *position = found;
+        return Ok(solution);
     }
-    let last = post.path.chosen.take().or(post.path.rotary).unwrap_or_else(|| on_tape(post));
-    let chain = post.control.tables.chain();
+    let last = nearest_to(post);
     let axis_chain::Place { linear, angles, free, turns } = chain.place(point, axis, last)?;
-    turned_apart::refuse(post, angles)?;
     *position = [linear.x, linear.y, linear.z, angles[0], angles[1]];
-    post.path.rotary = Some(angles);
-    post.path.free = Some(free);
-    post.path.turns = turns;
+    Ok(Solution::Angles { angles, free, turns })
+}
+
+/// The rotary positions that those of the next motion are the nearest to, degrees.
+#[inline]
+pub(super) fn nearest_to(post: &Post) -> [f64; 2] {
+    post.path.chosen.or(post.path.rotary).unwrap_or_else(|| on_tape(post))
+}
+
+/// Takes the rotary axes to stand where the motion that is made next brings them.
+///
+/// # Errors
+/// The machine turns with another tool or another zero than before.
+#[inline(always)]
+pub fn establish(post: &mut Post, solution: Solution) -> Result<()> {
+    match solution {
+        Solution::Still => {}
+        Solution::Angles { angles, free, turns } => {
+            turned_apart::settle(post, angles)?;
+            post.path.chosen = None;
+            post.path.rotary = Some(angles);
+            post.path.free = Some(free);
+            post.path.turns = turns;
+        }
+        Solution::InFrame | Solution::OfLiveTool(_) | Solution::OfTip { .. } => {
+            establish_in_mode(post, solution);
+        }
+    }
     Ok(())
+}
+
+/// The same where X, Y and Z are no positions of the slides.
+#[cold]
+fn establish_in_mode(post: &mut Post, solution: Solution) {
+    match solution {
+        Solution::InFrame => {
+            post.path.chosen = None;
+            post.control.tip.is_away = false;
+        }
+        Solution::OfLiveTool(angles) => post.path.rotary = Some(angles),
+        Solution::OfTip { angles, free, by_vector } => {
+            post.path.chosen = None;
+            post.path.rotary = Some(angles);
+            post.path.free = Some(free);
+            post.control.tip.by_vector = by_vector;
+        }
+        Solution::Still | Solution::Angles { .. } => {}
+    }
 }
 
 /// True where X, Y and Z are no positions of the slides.
@@ -64,7 +137,11 @@ fn needs_more(post: &Post) -> bool {
 }
 
 /// The same there.
-fn position_in_mode(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<Position> {
+fn position_in_mode(
+    post: &Post,
+    point: Point3<f64>,
+    axis: Vector3<f64>,
+) -> Result<(Position, Solution)> {
     if post.control.tables.mills() {
         return mill_turn::position_of(post, point, axis);
     }

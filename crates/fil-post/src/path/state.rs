@@ -47,8 +47,6 @@ pub struct Path {
     pub(crate) chosen: Option<[f64; 2]>,
     /// The tilted frame that motions were last written in.
     pub(crate) frame: Option<frame::TiltedFrame>,
-    /// How many frames have begun.
-    pub(crate) frames: u32,
     /// The radius of the cylinder in force about the spindle of a mill-turn machine.
     pub(crate) cylinder: Option<f64>,
     /// How far the tip may leave its line while the machine turns.
@@ -146,7 +144,6 @@ impl Default for Path {
             arrived: None,
             chosen: None,
             frame: None,
-            frames: 0,
             cylinder: None,
             straightness: Straightness::default(),
             writes_inverse_time: false,

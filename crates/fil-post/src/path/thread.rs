@@ -469,8 +469,8 @@ fn is_by_first(thread: &Thread) -> bool {
 ///
 /// # Errors
 /// A frame in which the thread does not lie in the plane of X and Z.
-pub fn on_machine(post: &mut Post, target: Target) -> Result<[f64; 2]> {
-    let position = rotary::position_of(post, target)?;
+pub fn on_machine(post: &Post, target: Target) -> Result<[f64; 2]> {
+    let (position, _) = rotary::position_of(post, target)?;
     for (number, along) in position.into_iter().take(3).enumerate() {
         post.control.tables.axis(number).check(along)?;
     }

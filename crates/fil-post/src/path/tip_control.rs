@@ -14,6 +14,7 @@ use fil_machine::commons::EMPTY;
 use fil_machine::locations::{self as loc, ControlFamily, RotaryTipControl};
 use nalgebra::{Point3, Vector3};
 
+use super::rotary::Solution;
 use super::turning::spelled;
 use super::{frame, frame_end, rapid, rotary, tip, turned_apart};
 use crate::control::needs::Act;
@@ -52,22 +53,18 @@ pub(super) fn ready(post: &mut Post, target: Target) -> Result<()> {
 /// A tool axis out of reach, a position outside the travel.
 #[cold]
 pub(super) fn position_of(
-    post: &mut Post,
+    post: &Post,
     point: Point3<f64>,
     axis: Vector3<f64>,
-) -> Result<Position> {
-    let near = post.path.chosen.take().or(post.path.rotary);
-    let last = near.unwrap_or_else(|| rotary::on_tape(post));
+) -> Result<(Position, Solution)> {
+    let last = rotary::nearest_to(post);
     let tables = &post.control.tables;
     let (angles, free) = tables.chain().solve_with_free(axis, last)?;
     let linear = tables.chain().linear(point, angles);
     tables.check_travel(&[linear.x, linear.y, linear.z, 0.0, 0.0], AxisSet::LINEAR)?;
-    if post.control.tip.by_vector {
-        check_vector(post, angles, axis)?;
-    }
-    post.path.rotary = Some(angles);
-    post.path.free = Some(free);
-    Ok([point.x, point.y, point.z, angles[0], angles[1]])
+    let by_vector = post.control.tip.by_vector && takes_vector(post, angles, axis)?;
+    let position = [point.x, point.y, point.z, angles[0], angles[1]];
+    Ok((position, Solution::OfTip { angles, free, by_vector }))
 }
 
 /// The next motion says the direction of the tool by a vector, where the machine does: all
@@ -78,21 +75,20 @@ pub(super) fn say_by_vector(post: &mut Post, at_feed: bool) {
         tables.tip_vectors && (at_feed || !vectors::takes_angles_too(tables.family));
 }
 
-/// Takes angles instead where the control could bring the tool along a direction by other
-/// positions of the rotary axes.
+/// True where the control brings the tool along a direction by these positions of the rotary axes;
+/// false where it could take others, and takes angles instead.
 ///
 /// # Errors
 /// It takes no angles.
-fn check_vector(post: &mut Post, angles: [f64; 2], axis: Vector3<f64>) -> Result<()> {
+fn takes_vector(post: &Post, angles: [f64; 2], axis: Vector3<f64>) -> Result<bool> {
     let stands = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
     let tables = &post.control.tables;
     let solutions = tables.chain().solutions(axis, stands);
     if vectors::stand_known(&post.control) && vectors::say_the_same(&solutions, stands, angles) {
-        return Ok(());
+        return Ok(true);
     }
     if vectors::takes_angles_too(tables.family) {
-        post.control.tip.by_vector = false;
-        return Ok(());
+        return Ok(false);
     }
     let message = format!(
         "the rotary axes turn from {} to {} degrees, and for the same direction of the tool the \
@@ -189,9 +185,7 @@ fn turn_to_first_axis(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     if !(anywhere && control.tip.is_away) {
         return Ok(());
     }
-    let near = post.path.chosen.or(post.path.rotary);
-    let near = near.unwrap_or_else(|| rotary::on_tape(post));
-    let angles = control.tables.chain().solve(axis, near)?;
+    let angles = control.tables.chain().solve(axis, rotary::nearest_to(post))?;
     let position = [0.0, 0.0, 0.0, angles[0], angles[1]];
     let motion = Motion::new(position, AxisSet::ROTARY, 0);
     let cause = post.control.block.cause.whole();
@@ -313,7 +307,7 @@ pub fn machine_height(control: &Control) -> Option<f64> {
 ///
 /// # Errors
 /// The unit is not known.
-fn way_up(control: &mut Control) -> Result<Option<f64>> {
+fn way_up(control: &Control) -> Result<Option<f64>> {
     let distance = control.commons.dbl_opt(loc::ROTARY_TIP_END_RETRACT).unwrap_or(0.0);
     if distance <= 0.0 {
         return Ok(None);
@@ -349,7 +343,7 @@ fn go_up(control: &mut Control) -> Result<bool> {
 /// # Errors
 /// As [`frame_end::go_up_by`].
 fn go_up_in_frame(post: &mut Post) -> Result<bool> {
-    match way_up(&mut post.control)? {
+    match way_up(&post.control)? {
         Some(distance) => frame_end::go_up_by(post, distance),
         None => Ok(false),
     }
@@ -402,13 +396,13 @@ fn rapid_to(control: &mut Control, position: Position, axes: AxisSet) -> Result<
 ///
 /// # Errors
 /// It does, and the control does not go up along the tool before.
-pub(super) fn refuse_level(post: &mut Post) -> Result<()> {
+pub(super) fn settle_level(post: &mut Post) -> Result<()> {
     let control = &mut post.control;
     if !control.may_name_tip() || machine_frame::is_meant(control) {
         return Ok(());
     }
     let goes_up = ends_elsewhere(control) && way_up(control)?.is_some();
-    if goes_up { Ok(()) } else { turned_apart::refuse_level(post) }
+    if goes_up { Ok(()) } else { turned_apart::settle_level(post) }
 }
 
 /// What an operation that is no motion of the path asks of tool-tip control.
@@ -417,7 +411,7 @@ pub(super) fn refuse_level(post: &mut Post) -> Result<()> {
 /// Cutter compensation, and functions that controls take in different ways under it.
 pub(super) fn before(post: &mut Post, operation: &Operation) -> Result<()> {
     if let Operation::MachinePosition([_, _, Some(_)]) = operation {
-        refuse_level(post)?;
+        settle_level(post)?;
     }
     let control = &mut post.control;
     let what = match operation {

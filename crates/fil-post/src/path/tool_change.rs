@@ -95,7 +95,7 @@ fn leave_part(post: &mut Post) -> Result<()> {
         }
         return Ok(());
     }
-    tip_control::refuse_level(post)?;
+    tip_control::settle_level(post)?;
     frame_end::go_up_to(post, level)
 }
 

@@ -27,16 +27,17 @@ pub(crate) struct TurnedWith {
     lies_across: bool,
 }
 
-/// Refuses positions of a turned machine for another tool, or another zero, than before.
+/// Takes the tool and the zero with which the machine is turned first, and refuses positions of a
+/// turned machine for another tool, or another zero, than those.
 ///
 /// # Errors
 /// A head leans with a second tool; a table stands turned under a second work offset.
 #[inline]
-pub(super) fn refuse(post: &mut Post, angles: [f64; 2]) -> Result<()> {
-    if angles == [0.0; 2] { Ok(()) } else { look(post, angles) }
+pub(super) fn settle(post: &mut Post, angles: [f64; 2]) -> Result<()> {
+    if angles == [0.0; 2] { Ok(()) } else { settle_turned(post, angles) }
 }
 
-fn look(post: &mut Post, angles: [f64; 2]) -> Result<()> {
+fn settle_turned(post: &mut Post, angles: [f64; 2]) -> Result<()> {
     let control = &post.control;
     let chain = control.tables.chain();
     let turned = |carries: Carries| {
@@ -49,7 +50,7 @@ fn look(post: &mut Post, angles: [f64; 2]) -> Result<()> {
     let by_table = turned(Carries::Table);
     if by_head
         && !control.commons.read(loc::TOOL_IGNORE_LENGTH)
-        && is_another(&mut post.path.turned_with.tool, control.state.get(modal::TOOL))
+        && settle_tool(&mut post.path.turned_with.tool, control.state.get(modal::TOOL))
     {
         return PostCode::TurnedApart.err_with(
             "the head leans with a second tool, and rotary.pivot_distance is that to the tip of \
@@ -59,7 +60,7 @@ fn look(post: &mut Post, angles: [f64; 2]) -> Result<()> {
         );
     }
     if by_head && !post.path.turned_with.lies_across {
-        look_across(post, angles);
+        warn_of_length_across(post, angles);
     }
     if by_table {
         let zero = zero(&post.control);
@@ -76,13 +77,13 @@ fn look(post: &mut Post, angles: [f64; 2]) -> Result<()> {
     Ok(())
 }
 
-/// Refuses a level of the machine's Z for a head that leans another tool than before: how high the
-/// tool stands, and with it how far up along it the level lies, is counted with
+/// Takes the tool for which levels of the machine's Z are counted first while a head leans it, and
+/// refuses one for another: how high the tool stands, and with it how far up along it the level lies, is counted with
 /// `rotary.pivot_distance`.
 ///
 /// # Errors
 /// Such a tool.
-pub(super) fn refuse_level(post: &mut Post) -> Result<()> {
+pub(super) fn settle_level(post: &mut Post) -> Result<()> {
     let control = &post.control;
     let chain = control.tables.chain();
     let leans = |angles: [f64; 2]| frame::leans(chain, angles);
@@ -90,7 +91,7 @@ pub(super) fn refuse_level(post: &mut Post) -> Result<()> {
     if !has_pivot || !rapid_lean::turned(control).is_some_and(leans) {
         return Ok(());
     }
-    if is_another(&mut post.path.turned_with.tool_of_levels, control.state.get(modal::TOOL)) {
+    if settle_tool(&mut post.path.turned_with.tool_of_levels, control.state.get(modal::TOOL)) {
         return PostCode::TurnedApart.err_with(
             "a level of the machine's Z while the head leans a second tool: how far up along the \
              tool it lies is counted with rotary.pivot_distance, that to the tip of the first",
@@ -101,15 +102,16 @@ pub(super) fn refuse_level(post: &mut Post) -> Result<()> {
     Ok(())
 }
 
-/// True for another tool than the first one; one that is not known may be any.
-fn is_another(first: &mut Option<i64>, tool: Option<i64>) -> bool {
+/// Keeps the first tool that is known, and says whether this is another one; one that is not known
+/// may be any.
+fn settle_tool(first: &mut Option<i64>, tool: Option<i64>) -> bool {
     let is_other = first.is_some() && tool.is_some() && *first != tool;
     *first = first.or(tool);
     is_other
 }
 
 /// Warns where a head turns the tool across Z, along which the control counts its length.
-fn look_across(post: &mut Post, angles: [f64; 2]) {
+fn warn_of_length_across(post: &mut Post, angles: [f64; 2]) {
     let control = &mut post.control;
     let tool = control.tables.chain().tool_at(angles);
     let has_tool = control.state.get(modal::TOOL).is_some();

@@ -94,11 +94,9 @@ fn go(post: &mut Post, to: Position, target: Target) -> Result<()> {
 ///
 /// # Errors
 /// As [`super::position_of`].
-pub(super) fn stands(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<bool> {
-    let before = post.path.rotary;
-    let to = super::position_of(post, point, axis)?;
-    post.path.rotary = before;
-    Ok(before.is_some_and(|before| before[0] == to[3]))
+pub(super) fn stands(post: &Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<bool> {
+    let (to, _) = super::position_of(post, point, axis)?;
+    Ok(post.path.rotary.is_some_and(|before| before[0] == to[3]))
 }
 
 /// Goes to a target while C stands, and the way around the cylinder stays a length.
@@ -108,7 +106,8 @@ pub(super) fn stands(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) ->
 pub(super) fn along(post: &mut Post, target: Target) -> Result<()> {
     post.control.require(Act::MillTurnMotion)?;
     let (point, axis) = rotary::transformed(post, target);
-    let to = super::position_of(post, point, axis)?;
+    let (to, solution) = super::position_of(post, point, axis)?;
+    rotary::establish(post, solution)?;
     go(post, to, target)?;
     post.path.arrive(target);
     Ok(())
