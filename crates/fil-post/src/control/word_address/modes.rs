@@ -13,34 +13,57 @@ use crate::control::{Control, Function, length_plane, sinumerik};
 use crate::control_state::{Compensation, Distance, modal};
 use crate::errors::PostCode;
 
-/// Brings the control into the modes every motion of the post counts on: unit,
-/// absolute coordinates, no cycle, no compensation but the one asked for.
+/// The modes that an operation brings itself, or goes on in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Own {
+    /// None of them.
+    Nothing,
+    /// The plane.
+    Plane,
+    /// The plane, and the cycle that the control is in.
+    PlaneAndCycle,
+}
+
+impl Own {
+    fn has_plane(self) -> bool {
+        self != Own::Nothing
+    }
+
+    fn has_cycle(self) -> bool {
+        self == Own::PlaneAndCycle
+    }
+}
+
+/// Brings the control into the modes that motions of the post count on, but for those that the
+/// operation brings itself: unit, absolute coordinates, the usual plane, no cycle, no compensation
+/// but the one asked for.
 ///
 /// # Errors
 /// The machine has no code for a mode the control is known not to be in; cutter
 /// compensation that can't be said again in its middle.
 #[inline]
-pub fn require(control: &mut Control, unit: Unit) -> Result<()> {
+pub fn require(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
     control.require(Act::Motion)?;
     let state = &control.state;
     let stands = state.is(modal::UNITS, unit)
         && state.is(modal::DISTANCE, Distance::Absolute)
         && state.is(modal::DIAMETER_MODE, true)
-        && !state.may_be(modal::PLANE_IS_TEMPORARY, true)
+        && (own.has_plane() || !state.may_be(modal::PLANE_IS_TEMPORARY, true))
         && !length_plane::is_left(control)
-        && state.is(modal::CYCLE, false)
+        && (own.has_cycle() || state.is(modal::CYCLE, false))
         && state.get(modal::CUTTER_COMP).is_some();
-    if stands { Ok(()) } else { say_again(control, unit) }
+    if stands { Ok(()) } else { say_again(control, unit, own) }
 }
 
 #[cold]
-fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
+fn say_again(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
     let waiting = control.block.take();
     let mut missing = Vec::new();
     let sinumerik = control.tables.family == ControlFamily::Sinumerik;
-    if !control.state.is(modal::CYCLE, false) && sinumerik {
+    let in_cycle = !own.has_cycle() && !control.state.is(modal::CYCLE, false);
+    if in_cycle && sinumerik {
         sinumerik::cycle::cancel(control)?;
-    } else if !control.state.is(modal::CYCLE, false)
+    } else if in_cycle
         && !say(control, control.code_if_any(loc::CYCLE_OFF_CODE))
     {
         control.state.set(modal::CYCLE, false);
@@ -75,7 +98,9 @@ fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
         return PostCode::NoCode.err(format!("the machine has no code that brings {what} back"));
     }
     control.write_block()?;
-    leave_plane_of_its_own(control)?;
+    if !own.has_plane() {
+        leave_plane_of_its_own(control)?;
+    }
     length_plane::take_back(control)?;
     control.block = waiting;
     Ok(())

@@ -11,7 +11,8 @@ use fil_machine::modes::Plane;
 use fil_machine::rounding::Rounding;
 use fil_machine::{FunctionCode, Letter};
 
-use super::{modes, tool};
+use super::modes::{self, Own};
+use super::tool;
 use crate::cause::Cause;
 use crate::control::{Control, Function, full_turn, length_plane, vectors};
 use crate::control_state::{Compensation, CutterPath, Meaning, modal};
@@ -209,6 +210,15 @@ pub fn pass_by(
 /// No unit; and as [`modes::require`].
 #[inline]
 pub fn ready(control: &mut Control) -> Result<()> {
+    ready_with(control, Own::Nothing)
+}
+
+/// The same for an operation that brings some of them itself.
+///
+/// # Errors
+/// As [`ready`].
+#[inline]
+fn ready_with(control: &mut Control, own: Own) -> Result<()> {
     if !control.head.started {
         control.begin()?;
     }
@@ -216,7 +226,7 @@ pub fn ready(control: &mut Control) -> Result<()> {
         super::repeat::doubt_ended(control);
     }
     let unit = control.require_unit()?;
-    modes::require(control, unit)
+    modes::require(control, unit, own)
 }
 
 /// The same for an arc: the control may be in its plane, behind another arc.
@@ -224,16 +234,8 @@ pub fn ready(control: &mut Control) -> Result<()> {
 /// # Errors
 /// As [`ready`].
 pub fn ready_for_arc(control: &mut Control, plane: Plane) -> Result<()> {
-    let stays = control.state.may_be(modal::PLANE_IS_TEMPORARY, true)
-        && control.state.is(modal::PLANE, plane);
-    if stays {
-        control.state.set(modal::PLANE_IS_TEMPORARY, false);
-    }
-    let result = ready(control);
-    if stays {
-        control.state.set(modal::PLANE_IS_TEMPORARY, true);
-    }
-    result
+    let stays = control.state.is(modal::PLANE, plane);
+    ready_with(control, if stays { Own::Plane } else { Own::Nothing })
 }
 
 /// The same for a hole: the control may be in the cycle that drills it.
@@ -242,18 +244,8 @@ pub fn ready_for_arc(control: &mut Control, plane: Plane) -> Result<()> {
 /// As [`ready`].
 pub fn ready_for_hole(control: &mut Control, in_cycle: bool) -> Result<()> {
     // A cycle says its plane itself; a hole of single moves needs none.
-    let of_hole = control.state.may_be(modal::PLANE_IS_TEMPORARY, true);
-    control.state.set(modal::PLANE_IS_TEMPORARY, false);
     let stays = in_cycle && control.state.is(modal::CYCLE, true);
-    if stays {
-        control.state.set(modal::CYCLE, false);
-    }
-    let result = ready(control);
-    if stays {
-        control.state.set(modal::CYCLE, true);
-    }
-    control.state.set(modal::PLANE_IS_TEMPORARY, of_hole);
-    result
+    ready_with(control, if stays { Own::PlaneAndCycle } else { Own::Plane })
 }
 
 /// Adds the words of the axes that move; says whether any does.

@@ -12,7 +12,7 @@ use fil_machine::locations::{self as loc, ControlFamily, Placement};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::CodeAt;
 
-use super::modes;
+use super::modes::{self, Own};
 use crate::control::needs::Act;
 use crate::control::{Control, Function, sinumerik};
 use crate::control_state::{Rotation, modal};
@@ -141,7 +141,7 @@ fn require_unit(control: &mut Control) -> Result<()> {
     let unit = control.require_unit()?;
     match control.state.is(modal::UNITS, unit) {
         true => Ok(()),
-        false => modes::require(control, unit),
+        false => modes::require(control, unit, Own::Nothing),
     }
 }
 

@@ -5,7 +5,7 @@ use fil_machine::Letter;
 use fil_machine::letters::S;
 use fil_machine::locations::{self as loc, SeqnoOnText};
 
-use super::modes;
+use super::modes::{self, Own};
 use crate::control::Control;
 use crate::control::texts::{clean_message, without_blanks};
 use crate::control_state::text::{self, TextWords};
@@ -61,7 +61,7 @@ fn say_what_it_counts_on(control: &mut Control, block: &str) -> Result<()> {
         && !is_said(|meaning| matches!(meaning, Meaning::SpeedMode(_)));
     if needs_unit {
         let unit = control.require_unit()?;
-        modes::require(control, unit)?;
+        modes::require(control, unit, Own::Nothing)?;
     }
     match control.code_if_any(loc::SPINDLE_RPM_CODE).filter(|_| needs_turns) {
         Some(code) => {
