@@ -199,14 +199,14 @@ fn target(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<T
     let axis = match record.axis() {
         Some(axis) => {
             let axis = checked_axis(post, Vector3::from(axis))?;
-            post.path.axis_in_doubt = false;
+            post.path.axis.in_doubt = false;
             axis
         }
         None if record.data.len() == MOTION[0] => {
-            if post.path.named_frames.waits || post.path.axis_in_doubt {
+            if post.path.named_frames.waits || post.path.axis.in_doubt {
                 word::csys::settle_axis(post, record)?;
             }
-            post.path.axis
+            post.path.axis.given
         }
         None => return Err(no_point(record, vocabulary)),
     };

@@ -15,7 +15,7 @@ use crate::errors::PostCode;
 use crate::items::Items;
 use crate::noted::Noted;
 use crate::operation::{End, Feed};
-use crate::path::{Path, long_arc, tool_change};
+use crate::path::{Choice, Path, long_arc, tool_change};
 use crate::words::end;
 
 /// What waits for the next motion of the CL file.
@@ -59,8 +59,10 @@ impl Post {
     /// # Errors
     /// As [`Control::require`].
     pub fn require(&self, act: Act) -> Result<()> {
-        let part =
-            Part { in_cycle: self.path.cycle.is_some(), in_thread: self.path.thread.is_some() };
+        let part = Part {
+            in_cycle: self.path.cycle.is_some(),
+            in_thread: self.path.thread.passes.is_some(),
+        };
         self.control.require_within(act, part)
     }
 
@@ -107,7 +109,7 @@ impl Post {
     /// The last record has more blocks to be written.
     #[inline]
     pub fn has_more(&self) -> bool {
-        self.path.rest.is_some()
+        self.path.long_arc.rest.is_some()
     }
 
     /// Writes some more blocks of the last record.
@@ -123,8 +125,8 @@ impl Post {
     pub fn let_go(&mut self) {
         self.control.block.clear();
         self.path.arc = None;
-        self.path.rest = None;
-        self.path.in_chords = false;
+        self.path.long_arc.rest = None;
+        self.path.long_arc.in_chords = false;
         self.path.rapid = None;
         self.path.interrupt();
     }
@@ -152,7 +154,7 @@ impl Post {
             self.path.rapid = None;
         }
         if !is_replaced {
-            self.path.taken_behind = self.path.point;
+            self.path.last.taken_behind = self.path.point;
         }
         Ok(())
     }
@@ -175,12 +177,12 @@ impl Post {
     /// Which way arcs turn was chosen by whoever runs the post: arcs that prove nothing are
     /// only warned of. Arcs that contradict the choice are still refused.
     pub fn trust_arcs(&mut self) {
-        self.path.sense_is_chosen = true;
+        self.path.sense.choice = Choice::Made;
     }
 
     /// The arcs were refused, and [`Post::trust_arcs`] would make that a warning.
     pub fn trust_settles_arcs(&self) -> bool {
-        self.path.choice_settles_arcs
+        self.path.sense.choice == Choice::WouldSettle
     }
 
     /// Motions are written under tool-tip control: on a machine that writes tilted frames
@@ -203,17 +205,17 @@ impl Post {
 
     /// Diameter of the cutter as the CL file names it, in CL units.
     pub fn cutter_diameter(&self) -> Option<f64> {
-        self.path.cutter
+        self.path.cutter.map(|cutter| cutter.diameter)
     }
 
     /// True when a tool change depends on those behind it: whoever drives the post tells
-    /// them by `path.next_tools` before a record that changes the tool.
+    /// them by `path.ahead.tools` before a record that changes the tool.
     pub fn looks_ahead_for_tools(&self) -> bool {
         tool_change::looks_ahead(&self.control.commons)
     }
 
     /// True when rotary positions are chosen by the motions behind a RAPID: whoever drives the
-    /// post tells them by `path.coming` before the record.
+    /// post tells them by `path.ahead.motions` before the record.
     pub fn looks_ahead_for_axes(&self) -> bool {
         self.control.tables.chain().has_rotary() && self.control.commons.read(loc::REPOS_OPTIMISE)
     }
@@ -226,15 +228,14 @@ impl Post {
     /// True when lengths or feeds were given: a change of the unit would leave them
     /// in the other one.
     pub(crate) fn has_lengths(&self) -> bool {
-        let Path { point, feed, cycle, transformation, cutter, thread, straightness, .. } =
-            &self.path;
+        let Path { point, feed, cycle, transformation, cutter, thread, turning, .. } = &self.path;
         point.is_some()
             || feed.is_some()
             || cycle.is_some()
             || transformation.is_some()
             || cutter.is_some()
-            || thread.is_some()
-            || straightness.tolerance.is_some()
+            || thread.passes.is_some()
+            || turning.straightness.tolerance.is_some()
     }
 
     /// Warns once per code and subject.

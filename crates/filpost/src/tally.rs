@@ -304,7 +304,7 @@ fn reach(point: [f64; 3], arc: Option<&ArcPath>) -> Extents {
 
 /// The box around a hole, down to its bottom.
 fn hole_reach(point: [f64; 3], cycle: &Cycle, post: &Post) -> Extents {
-    let axis = post.path.axis;
+    let axis = post.path.axis.given;
     let down = [axis.x, axis.y, axis.z].map(|part| part * cycle.depth);
     let mut extents = None;
     Extents::add(&mut extents, point);

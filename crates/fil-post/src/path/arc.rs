@@ -48,7 +48,7 @@ const ELSEWHERE: &str = "the tape does not stand where the arc begins: a cycle, 
 /// No start point, radii that disagree, an arc in a cycle or as the first motion of
 /// cutter compensation, and all that a motion refuses.
 pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
-    post.path.in_cut = true;
+    post.path.last.in_cut = true;
     let Some(start) = post.path.point else {
         return PostCode::ArcStart.err("CIRCLE before any FROM or GOTO");
     };
@@ -65,10 +65,10 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     let tables = &post.control.tables;
     let turns = !tables.mills() && post.control.commons.read(loc::LATHE_DIAMETER);
     let tool = Some(target.axis).filter(|_| !turns);
-    post.path.course.arc(ends.map(|end| arc.axis.cross(&end)), sweep, tool, arc.line);
-    let turns_axis = target.axis != post.path.stands;
+    post.path.sense.course.arc(ends.map(|end| arc.axis.cross(&end)), sweep, tool, arc.line);
+    let turns_axis = target.axis != post.path.axis.stands;
     if post.control.tables.frame_output && !post.writes_tip() {
-        let axis = post.path.stands;
+        let axis = post.path.axis.stands;
         frame::turn_to(post, Target { axis, ..target }, false)?;
     }
     let whole =
@@ -134,7 +134,7 @@ fn where_it_begins(post: &Post, start: Point3<f64>) -> Result<Solution> {
     if post.control.tables.mills() {
         return Ok(Solution::Still);
     }
-    let here = Target { point: start, axis: post.path.stands, word: 0 };
+    let here = Target { point: start, axis: post.path.axis.stands, word: 0 };
     let (from, solution) = if post.writes_tip() {
         let (tip, _) = rotary::transformed(post, here);
         ([tip.x, tip.y, tip.z, 0.0, 0.0], Solution::Still)

@@ -54,7 +54,7 @@ impl Chords {
             across: arc.axis.cross(&from),
             rise: arc.axis * arc.axis.dot(&(end.point - start)),
             sweep,
-            axes: [post.path.stands, end.axis],
+            axes: [post.path.axis.stands, end.axis],
             end,
             count: 0,
             done: 0,

@@ -77,7 +77,7 @@ pub fn refuse_across_tool(post: &Post, plane: Plane, is_named: bool) -> Result<(
         return Ok(());
     }
     let Some(angles) = rapid_lean::turned(&post.control) else { return Ok(()) };
-    let of_part = post.path.stands.normalize();
+    let of_part = post.path.axis.stands.normalize();
     let normal = Vector3::ith(plane.normal(), 1.0);
     let (tool, seen) = if post.control.may_be_tilted() {
         (Vector3::z(), if of_part.z > SAME_WAY { normal } else { Vector3::zeros() })

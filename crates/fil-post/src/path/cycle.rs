@@ -146,11 +146,11 @@ pub fn replace(post: &mut Post, cycle: Option<Cycle>) -> Result<()> {
         Some(old) => (old.initial, old.above),
         None => {
             // The level before the cycle is the one at which the one before has left the tool.
-            let left = post.path.above_left.take().filter(|(_, outputs)| *outputs == stands);
+            let left = post.path.last.above_left.take().filter(|(_, outputs)| *outputs == stands);
             (None, left.map(|(above, _)| AboveHoles { before: above.now, ..above }))
         }
     };
-    post.path.above_left = above.filter(|_| cycle.is_none()).map(|above| (above, stands));
+    post.path.last.above_left = above.filter(|_| cycle.is_none()).map(|above| (above, stands));
     post.path.cycle = cycle.map(|cycle| Cycle { initial, above, ..cycle });
     Ok(())
 }

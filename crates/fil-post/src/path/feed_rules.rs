@@ -84,7 +84,7 @@ fn parts(post: &mut Post, way: [Option<f64>; 3]) -> Result<&'static [AxisSet]> {
         LinearMethod::ZThenXy if slanted => &[AxisSet::Z, AxisSet::XY],
         _ => return Ok(&[AxisSet::ALL]),
     };
-    if post.path.in_chords {
+    if post.path.long_arc.in_chords {
         return PostCode::WordForm.err(
             "an arc as short lines needs X, Y and Z in one block, and linear.method moves them \
              one after the other",
@@ -98,7 +98,7 @@ fn parts(post: &mut Post, way: [Option<f64>; 3]) -> Result<&'static [AxisSet]> {
 /// How far the tip goes in a part of a motion, mm or inch; `None` where that is not known.
 fn length(post: &Post, way: [Option<f64>; 3], axes: AxisSet, target: Target) -> Option<f64> {
     // A tool change moves the axes, though settings may not let them be said again.
-    let is_changed = post.path.since == Since::ToolChange && way.iter().any(Option::is_some);
+    let is_changed = post.path.last.since == Since::ToolChange && way.iter().any(Option::is_some);
     if is_changed || post.writes_tip() && post.control.tip.begins_unsaid {
         return None;
     }
@@ -293,7 +293,7 @@ fn at_the_edge(post: &mut Post, feed: Feed, arc: &PlaneArc) -> Feed {
     {
         return feed;
     }
-    let Some(cutter) = post.path.cutter else {
+    let Some(cutter) = post.path.cutter.map(|cutter| cutter.diameter) else {
         let message = "no CUTTER gives the diameter of this tool: the feed of the arc is that of \
                        its center (circle.true_radius_feed)";
         post.warn(PostCode::IgnoredPart, message.to_string());
@@ -317,7 +317,7 @@ pub fn of_short_rapid(post: &Post, motion: &Motion, target: Target) -> Option<Fe
     let commons = &post.control.commons;
     let short = commons.dbl_opt(loc::RAPID_SHORT_DISTANCE).filter(|short| *short > 0.0)?;
     let value = commons.dbl_opt(loc::RAPID_SHORT_FEED)? * post.control.upm_factor();
-    if post.path.in_whole_thread || post.control.tables.chain().has_rotary() {
+    if post.path.thread.in_whole || post.control.tables.chain().has_rotary() {
         return None;
     }
     let length = length(post, way(post, motion), AxisSet::ALL, target)?;

@@ -108,7 +108,7 @@ pub(super) fn turn_to(post: &mut Post, target: Target, at_feed: bool) -> Result<
     let axis = normalized(rotary::transformed(post, target).1)?;
     let same = along(post, axis);
     if same.is_some_and(|frame| is_in_force(&post.control, &frame)) {
-        post.path.chosen = None;
+        post.path.turning.chosen = None;
         return Ok(false);
     }
     if at_feed && same.is_none() && post.path.frame.is_some() && !post.control.tip.is_away {
@@ -136,7 +136,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<()> {
     family::cancel_cycle(control)?;
     control.flush_function(Function::WorkOffset)?;
     let stands = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
-    let near = post.path.chosen.take().unwrap_or(stands);
+    let near = post.path.turning.chosen.take().unwrap_or(stands);
     let chain = post.control.tables.chain();
     let angles = match zero(chain, axis) {
         true => [0.0; 2],
@@ -272,7 +272,7 @@ fn away(post: &Post, stands: [f64; 2]) -> Result<Away> {
     if !height::is_above(control, level)? {
         return Ok(Away::To(level));
     }
-    if post.path.in_cut {
+    if post.path.last.in_cut {
         return PostCode::Frame.err_with(
             "the machine would turn in the cut, which lies above home.retract_z",
             "Bring the tool out by RAPID and GOTO before the new tool axis, or name a level above \

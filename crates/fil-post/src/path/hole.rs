@@ -41,9 +41,9 @@ pub fn carry_out(post: &mut Post, target: Target) -> Result<()> {
     let Some(mut cycle) = post.path.cycle.take() else { return Ok(()) };
     let result = drill(post, &mut cycle, target);
     // The tool stands above the point.
-    post.path.since = Since::Hole;
+    post.path.last.since = Since::Hole;
     post.path.cycle = Some(cycle);
-    post.path.course.interrupt();
+    post.path.sense.course.interrupt();
     result
 }
 
@@ -79,7 +79,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         scaled_lead::refuse(&post.control, &[hole.along], PostCode::CycleForm)?;
         refuse_another_lead(&post.control, cycle)?;
     }
-    post.path.in_cut = false;
+    post.path.last.in_cut = false;
     post.path.arrive(target);
     let word = rotary::word_of(post, target);
     let at = Motion::new(position, AxisSet::ALL, word);

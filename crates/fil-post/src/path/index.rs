@@ -5,7 +5,7 @@ use fil_machine::axis_chain::Carries;
 use fil_machine::locations::{self as loc, RotaryTableWords};
 use nalgebra::{Matrix3x4, Vector3};
 
-use super::{Transformation, rapid, rotary, tip};
+use super::{Statement, Transformation, rapid, rotary, tip};
 use crate::control::family;
 use crate::control::needs::Act;
 use crate::control::word_address::motion::Motion;
@@ -45,13 +45,12 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
     post.path.rotary = Some(angles);
     match moved {
         Some(transformation) => {
-            post.path.has_index = transformation.is_some();
             post.path.transformation = transformation;
             post.path.leave_point();
         }
         None => {
-            post.path.axis = post.control.tables.chain().axis_at(angles);
-            post.path.stands = post.path.axis;
+            post.path.axis.given = post.control.tables.chain().axis_at(angles);
+            post.path.axis.stands = post.path.axis.given;
             post.path.point = None;
         }
     }
@@ -64,7 +63,8 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
 /// # Errors
 /// TRANS, ORIGIN or TRACUT moves the points too; a head that leans the tool.
 fn under_points(post: &Post, angles: [f64; 2]) -> Result<Option<Transformation>> {
-    let moves = post.path.transformation.is_some() && !post.path.has_index;
+    let transformation = post.path.transformation.as_ref();
+    let moves = transformation.is_some_and(|it| it.of != Statement::Table);
     if moves || post.control.tables.input_shift() != Vector3::zeros() {
         return PostCode::WordForm.err(
             "ROTABL: TRANS, ORIGIN or the machine moves the points too, in an order left open",
@@ -85,5 +85,5 @@ fn under_points(post: &Post, angles: [f64; 2]) -> Result<Option<Transformation>>
     let columns =
         [at(1.0, 0.0, 0.0) - zero, at(0.0, 1.0, 0.0) - zero, at(0.0, 0.0, 1.0) - zero, zero.coords];
     let matrix = Matrix3x4::from_columns(&columns);
-    Ok(Some(Transformation { matrix, turns_axis: true }))
+    Ok(Some(Transformation { matrix, turns_axis: true, of: Statement::Table }))
 }

@@ -26,10 +26,10 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
         family::cancel_cycle(&mut post.control)?;
     }
     if let (Some(from), false) = (post.path.point, matches!(kind, MotionKind::Rapid(_))) {
-        post.path.course.line(target.point - from)?;
+        post.path.sense.course.line(target.point - from)?;
     } else {
-        post.path.course.interrupt();
-        if !post.path.coming.is_empty() {
+        post.path.sense.course.interrupt();
+        if !post.path.ahead.motions.is_empty() {
             solution::choose(post, *target, kind);
         }
     }
@@ -43,7 +43,8 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
             full_turn::check_zero(&post.control)?;
         }
     }
-    if std::mem::take(&mut post.path.turned_by_words) && !matches!(kind, MotionKind::Rapid(_)) {
+    if std::mem::take(&mut post.path.last.turned_by_words) && !matches!(kind, MotionKind::Rapid(_))
+    {
         rotary::follow(post);
     }
     match post.control.tables.travel_rules.is_empty() {
@@ -51,7 +52,7 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
         false => travel::carry_out(post, *target, kind)?,
     }
     post.control.tip.begins_unsaid = false;
-    post.path.in_cut = !matches!(kind, MotionKind::Rapid(_));
+    post.path.last.in_cut = !matches!(kind, MotionKind::Rapid(_));
     post.path.arrive(*target);
     Ok(())
 }
@@ -76,7 +77,7 @@ pub(super) fn go(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
                 && reposition_rapid::carry_out(post, before, target, cause)? => {}
         MotionKind::Rapid(cause) => match feed_rules::of_short_rapid(post, &motion, target) {
             Some(feed) => family::feed(&mut post.control, &motion, Some(&feed))?,
-            None if post.path.in_cut => rapid::out_of_cut(&mut post.control, &motion, cause)?,
+            None if post.path.last.in_cut => rapid::out_of_cut(&mut post.control, &motion, cause)?,
             None => rapid::rapid(&mut post.control, &motion, cause)?,
         },
         MotionKind::Feed => {

@@ -89,7 +89,7 @@ pub(crate) struct Arrived {
 /// How far the tip may leave its line, in the unit of the program; `None` for as far
 /// as it does.
 pub(super) fn tolerance(post: &Post) -> Result<Option<f64>> {
-    let Straightness { tolerance, off } = post.path.straightness;
+    let Straightness { tolerance, off } = post.path.turning.straightness;
     if off {
         return Ok(None);
     }
@@ -132,7 +132,7 @@ pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Targ
     let word = rotary::word_of(post, target);
     let motion = Motion { scaled: Some(scaled), ..Motion::new(to, AxisSet::ALL, word) };
     write(post, &motion, &part)?;
-    post.path.arrived = Some(Arrived {
+    post.path.turning.arrived = Some(Arrived {
         settings: settings(post),
         target: (end, [to[3], to[4]]),
         position: to,
@@ -191,7 +191,7 @@ fn divided(
 /// Writes one part with its feed.
 fn write(post: &mut Post, motion: &Motion, part: &PartFeed) -> Result<()> {
     family::feed(&mut post.control, motion, Some(&part.feed))?;
-    post.path.writes_inverse_time = part.is_inverse() && !post.path.inverse_time;
+    post.path.last.writes_inverse_time = part.is_inverse() && !post.path.inverse_time;
     Ok(())
 }
 
@@ -273,7 +273,8 @@ pub(super) fn is_where_the_path_is(post: &Post, before: [f64; 2]) -> bool {
         return stands(post, before).tip.is_some();
     }
     let point = post.path.point.unwrap_or_default();
-    let (tip, _) = rotary::transformed(post, Target { point, axis: post.path.stands, word: 0 });
+    let (tip, _) =
+        rotary::transformed(post, Target { point, axis: post.path.axis.stands, word: 0 });
     AxisSet::LINEAR.numbers().all(|n| {
         let least = post.control.tables.axis(n).resolution();
         post.control.stands(n).is_none_or(|at| (at - tip[n]).abs() <= least)
@@ -286,9 +287,9 @@ pub(super) fn is_where_the_path_is(post: &Post, before: [f64; 2]) -> bool {
 fn stands(post: &Post, before: [f64; 2]) -> Start {
     let tables = &post.control.tables;
     let point = post.path.point.unwrap_or_default();
-    let target = Target { point, axis: post.path.stands, word: 0 };
+    let target = Target { point, axis: post.path.axis.stands, word: 0 };
     let (point, _) = rotary::transformed(post, target);
-    let arrived = post.path.arrived.as_ref();
+    let arrived = post.path.turning.arrived.as_ref();
     let arrived =
         arrived.filter(|there| there.target == (point, before) && there.settings == settings(post));
     // A text moves axes that keep their last output values.
@@ -326,7 +327,7 @@ impl<'a> Turning<'a> {
         let chain = tables.chain();
         let from = start.position;
         let begin = start.tip.unwrap_or_else(|| tip(chain, &from));
-        let turns = post.path.turns;
+        let turns = post.path.turning.turns;
         Turning { tables, chain, ends: [from, to], line: [begin, end], turns }
     }
 

@@ -37,8 +37,8 @@ pub(super) fn as_lines(
     target: Target,
 ) -> Result<()> {
     let chords = Chords::new(post, arc, start, sweep, target)?;
-    let course = std::mem::take(&mut post.path.course);
-    post.path.in_chords = true;
+    let course = std::mem::take(&mut post.path.sense.course);
+    post.path.long_arc.in_chords = true;
     write(post, Rest::Lines(chords, course))
 }
 
@@ -55,7 +55,7 @@ pub(super) fn in_parts(post: &mut Post, parts: Parts, end: Point3<f64>) -> Resul
 /// # Errors
 /// As the motions it is made of.
 pub(crate) fn go_on(post: &mut Post) -> Result<()> {
-    match post.path.rest.take() {
+    match post.path.long_arc.rest.take() {
         Some(rest) => write(post, *rest),
         None => Ok(()),
     }
@@ -68,10 +68,10 @@ fn write(post: &mut Post, mut rest: Rest) -> Result<()> {
         Rest::Arcs(parts, _) => write_parts(post, parts)?,
     };
     match rest {
-        rest if more => post.path.rest = Some(Box::new(rest)),
+        rest if more => post.path.long_arc.rest = Some(Box::new(rest)),
         Rest::Lines(_, course) => {
-            post.path.course = course;
-            post.path.in_chords = false;
+            post.path.sense.course = course;
+            post.path.long_arc.in_chords = false;
         }
         Rest::Arcs(_, end) => post.path.point = Some(end),
     }

@@ -45,6 +45,6 @@ pub fn carry_out(post: &mut Post, to: [Option<f64>; 3]) -> Result<()> {
     post.control.tip.is_away = true;
     post.path.rapid = None;
     post.path.point = None;
-    post.path.in_cut = false;
+    post.path.last.in_cut = false;
     Ok(())
 }

@@ -62,9 +62,9 @@ pub use cycle::Cycle;
 pub use linearization::Straightness;
 pub(crate) use named_frames::NamedFrames;
 pub use solution::Coming;
-pub use state::Path;
-pub(crate) use state::Since;
-pub use transformation::Transformation;
+pub(crate) use state::{Choice, Cutter, Shift, Since};
+pub use state::{LookAhead, Path, ToolAxis};
+pub use transformation::{Statement, Transformation};
 
 /// Carries out an operation: its blocks are on the tape when this returns, of an arc in very many
 /// blocks the first ones.
@@ -82,7 +82,7 @@ pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
             arc::carry_out(post, &arc, target)
         }
         other => {
-            if std::mem::take(&mut post.path.writes_inverse_time) {
+            if std::mem::take(&mut post.path.last.writes_inverse_time) {
                 motion::leave_inverse_time(&mut post.control)?;
             }
             carry_out_other(post, other)
@@ -132,8 +132,8 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
         rotary::refuse_past_travel(&post.control, stood, stands)?;
         frame::refuse_turned(&post.control, [stood[3], stood[4]])?;
         post.path.leave_point();
-        post.path.in_cut = false;
-        post.path.turned_by_words = by_words;
+        post.path.last.in_cut = false;
+        post.path.last.turned_by_words = by_words;
         if !by_words {
             rotary::follow(post);
         }

@@ -4,7 +4,7 @@ use fil_cl::Record;
 use fil_cl::record::{Word, kind};
 use nalgebra::{Matrix3, Matrix3x4, Vector3};
 
-use super::Transformation;
+use super::{Statement, Transformation};
 
 /// Two frames this near in each of their numbers are the same: CAM systems write 4 to 10 digits.
 const SAME: f64 = 1e-6;
@@ -104,7 +104,8 @@ impl Named {
         let turn = back * now.fixed_columns::<3>(0);
         let shift = back * (now.column(3) - first.column(3));
         let columns = [turn.column(0).into(), turn.column(1).into(), turn.column(2).into(), shift];
-        Ok(Some(Transformation { matrix: Matrix3x4::from_columns(&columns), turns_axis: true }))
+        let matrix = Matrix3x4::from_columns(&columns);
+        Ok(Some(Transformation { matrix, turns_axis: true, of: Statement::NamedFrame }))
     }
 }
 

@@ -139,7 +139,7 @@ fn by_macro(post: &Post) -> Option<bool> {
 
 /// Where the motion begins, as the CL file says it.
 fn start(post: &Post, before: [f64; 2]) -> Result<Point3<f64>> {
-    let known = !post.path.in_chords && linearization::is_where_the_path_is(post, before);
+    let known = !post.path.long_arc.in_chords && linearization::is_where_the_path_is(post, before);
     post.path.point.filter(|_| known).ok_or_else(|| {
         PostCode::NoAlternative
             .diag("a limit of an axis lies on an arc, or where the tool stands is not known")

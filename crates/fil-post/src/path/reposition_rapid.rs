@@ -46,7 +46,7 @@ pub(super) fn carry_out(
     }
     let Some(by_macro) = by_macro(post)? else { return Ok(false) };
     // A tool change and a point of the machine have brought the tool away.
-    let known = matches!(post.path.since, Since::Motion | Since::Hole)
+    let known = matches!(post.path.last.since, Since::Motion | Since::Hole)
         && linearization::is_where_the_path_is(post, before);
     let Some(start) = post.path.point.filter(|_| known) else { return Ok(false) };
     let change = Change { share: 0.0, before, from: before, to: now, end: now };

@@ -85,7 +85,7 @@ pub fn find_position(post: &Post, target: Target, position: &mut Position) -> Re
 /// The rotary positions that those of the next motion are the nearest to, degrees.
 #[inline]
 pub(super) fn nearest_to(post: &Post) -> [f64; 2] {
-    post.path.chosen.or(post.path.rotary).unwrap_or_else(|| on_tape(post))
+    post.path.turning.chosen.or(post.path.rotary).unwrap_or_else(|| on_tape(post))
 }
 
 /// Takes the rotary axes to stand where the motion that is made next brings them.
@@ -98,10 +98,10 @@ pub fn establish(post: &mut Post, solution: Solution) -> Result<()> {
         Solution::Still => {}
         Solution::Angles { angles, free, turns } => {
             turned_apart::settle(post, angles)?;
-            post.path.chosen = None;
+            post.path.turning.chosen = None;
             post.path.rotary = Some(angles);
-            post.path.free = Some(free);
-            post.path.turns = turns;
+            post.path.turning.free = Some(free);
+            post.path.turning.turns = turns;
         }
         Solution::InFrame | Solution::OfLiveTool(_) | Solution::OfTip { .. } => {
             establish_in_mode(post, solution);
@@ -115,14 +115,14 @@ pub fn establish(post: &mut Post, solution: Solution) -> Result<()> {
 fn establish_in_mode(post: &mut Post, solution: Solution) {
     match solution {
         Solution::InFrame => {
-            post.path.chosen = None;
+            post.path.turning.chosen = None;
             post.control.tip.is_away = false;
         }
         Solution::OfLiveTool(angles) => post.path.rotary = Some(angles),
         Solution::OfTip { angles, free, by_vector } => {
-            post.path.chosen = None;
+            post.path.turning.chosen = None;
             post.path.rotary = Some(angles);
-            post.path.free = Some(free);
+            post.path.turning.free = Some(free);
             post.control.tip.by_vector = by_vector;
         }
         Solution::Still | Solution::Angles { .. } => {}
@@ -259,7 +259,7 @@ pub(super) fn refuse_compensated(post: &Post, before: Option<[f64; 2]>) -> Resul
 /// The skip switch decides where it begins.
 #[inline]
 pub(super) fn begins_anywhere(post: &mut Post) -> Result<bool> {
-    let in_doubt = post.path.since == Since::ToolChange
+    let in_doubt = post.path.last.since == Since::ToolChange
         || post.path.point.is_none()
         || post.control.state.has_doubts();
     if in_doubt { is_lost(post) } else { Ok(false) }
@@ -284,7 +284,7 @@ fn is_lost(post: &mut Post) -> Result<bool> {
         return refuse_level(&post.control, number);
     }
     // Settings may leave the axes of a tool change unsaid; it moves them all the same.
-    let lost = post.path.since == Since::ToolChange
+    let lost = post.path.last.since == Since::ToolChange
         || tables.written().numbers().any(|number| post.control.stands(number).is_none());
     if lost {
         let message =

@@ -34,7 +34,7 @@ type Tried = (u32, [f64; 2]);
 /// Chooses the positions for a rapid motion: its own solution is the nearest to them.
 #[cold]
 pub(super) fn choose(post: &mut Post, target: Target, kind: MotionKind) {
-    let coming = std::mem::take(&mut post.path.coming);
+    let coming = std::mem::take(&mut post.path.ahead.motions);
     if !matches!(kind, MotionKind::Rapid(_)) || post.control.tables.mills() {
         return;
     }
@@ -57,7 +57,7 @@ pub(super) fn choose(post: &mut Post, target: Target, kind: MotionKind) {
     let tried = all.iter();
     let best = tried.min_by(|(met, a), (other, b)| met.cmp(other).then(way(a).total_cmp(&way(b))));
     if let Some((_, to)) = best.copied() {
-        post.path.chosen = Some(to);
+        post.path.turning.chosen = Some(to);
         if post.control.commons.read(loc::REPOS_OPTIMISE_TRACE) {
             tell(post, &all, to, ahead.len());
         }

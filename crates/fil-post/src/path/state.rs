@@ -5,54 +5,34 @@ use fil_machine::axis_chain::Turn;
 use nalgebra::{Point3, Vector3};
 
 use super::{
-    Coming, Cycle, NamedFrames, Straightness, Transformation, cycle, frame, linearization,
-    long_arc, sense, skip, thread, turned_apart,
+    Coming, Cycle, NamedFrames, Statement, Straightness, Transformation, cycle, frame,
+    linearization, long_arc, sense, skip, thread, turned_apart,
 };
 use crate::cause::Cause;
-use crate::operation::{Arc, Feed, Lead, NextTools, Target};
+use crate::operation::{Arc, Feed, NextTools, Target};
 
 /// Where the CL file stands: point and axis, and what its records asked for.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Path {
     /// What UNITS has said; the unit may be known without it.
     pub stated_unit: Option<Unit>,
     /// Last CL point, mm or inch, in the part frame.
     pub point: Option<Point3<f64>>,
-    /// The tool axis of points that give none: that of the last point, or of TLAXIS.
-    pub axis: Vector3<f64>,
-    /// The tool axis in which the last motion has left the machine.
-    pub(crate) stands: Vector3<f64>,
-    /// A frame has turned under a leaning axis, which motions can't take over without saying it.
-    pub(crate) axis_in_doubt: bool,
+    /// The tool axis.
+    pub axis: ToolAxis,
     /// MULTAX is on: a GOTO may have an axis of any length. Off: it may have none but
     /// 0,0,1. `None` before the file has said it.
     pub multax: Option<bool>,
-    /// A motion has come.
-    pub(crate) has_moved: bool,
-    /// The last motion was at feed: the tool may stand in its cut.
-    pub(crate) in_cut: bool,
-    /// The points were moved since the last one came, or the tool away from it.
-    pub(crate) is_left: bool,
-    /// The last point when a section took a motion: behind it the CL file goes on from another one.
-    pub(crate) taken_behind: Option<Point3<f64>>,
+    /// The last motion, and what has come since.
+    pub(crate) last: LastMotion,
     /// Last rotary positions in degrees; `None` before the first motion.
     pub rotary: Option<[f64; 2]>,
-    /// Last rotary positions as they are the nearest if no axis has limits, degrees.
-    pub(crate) free: Option<[f64; 2]>,
-    /// The last rotary positions that were found for a motion, with their sines.
-    pub(crate) turns: [Turn; 2],
-    /// Where the last motion that turned the machine has brought it.
-    pub(crate) arrived: Option<linearization::Arrived>,
-    /// Positions that the look-ahead has chosen for the rapid motion at hand, degrees.
-    pub(crate) chosen: Option<[f64; 2]>,
+    /// How the machine turns from there.
+    pub(crate) turning: Turning,
     /// The tilted frame that motions were last written in.
     pub(crate) frame: Option<frame::TiltedFrame>,
     /// The radius of the cylinder in force about the spindle of a mill-turn machine.
     pub(crate) cylinder: Option<f64>,
-    /// How far the tip may leave its line while the machine turns.
-    pub straightness: Straightness,
-    /// The last feed motion was written in inverse time, in which the control still is.
-    pub(crate) writes_inverse_time: bool,
     /// RAPID was given, by this record: the next motion is rapid.
     pub rapid: Option<Cause>,
     /// How often RAPID was given.
@@ -61,134 +41,167 @@ pub struct Path {
     pub feed: Option<Feed>,
     /// FEDRAT/INVERS,AUTO: feed motions say how long they take.
     pub inverse_time: bool,
-    /// The lines written now are chords of an arc.
-    pub(crate) in_chords: bool,
     /// CIRCLE waits for its end point.
     pub arc: Option<Arc>,
-    /// What is left of a CIRCLE that is on the tape in part.
-    pub(crate) rest: Option<Box<long_arc::Rest>>,
+    /// A CIRCLE that takes many blocks.
+    pub(crate) long_arc: LongArc,
     /// The canned cycle that each GOTO carries out.
     pub cycle: Option<Cycle>,
-    /// Where the last cycle has left the tip above its holes under tool-tip control, with the
-    /// last outputs of X, Y and Z then.
-    pub(crate) above_left: Option<(cycle::AboveHoles, [f64; 3])>,
-    /// A thread is cut by each feed motion.
-    pub thread: Option<Lead>,
-    /// How the spindle turned in the first pass of that thread.
-    pub(crate) thread_turns: Option<thread::Turns>,
-    /// The lead that PITCH has given for threads that follow.
-    pub(crate) pitch: Option<thread::Pitch>,
-    /// What the lead of the thread gains in each turn, mm or inch; below zero it loses.
-    pub(crate) lead_change: f64,
-    /// Where the last pass has ended, from where the next motion may go on, and the number of blocks then.
-    pub(crate) pass_end: Option<(Point3<f64>, u64)>,
-    /// A whole thread is being cut: its rapid motions are those of the post.
-    pub(crate) in_whole_thread: bool,
-    /// A whole thread that waits for its points, or has them.
-    pub(crate) awaited_thread: Option<Box<thread::Awaited>>,
-    /// TRANS or TRACUT.
+    /// What THREAD, PITCH and OP/THREAD ask for.
+    pub(crate) thread: Threads,
+    /// TRANS with a matrix, TRACUT, a named frame or a turned table.
     pub transformation: Option<Transformation>,
-    /// The translation of the input is that of ORIGIN.
-    pub(crate) has_origin: bool,
-    /// The transformation is that of TRACUT.
-    pub(crate) has_tracut: bool,
-    /// The transformation is that of a frame that CSYS or its like has named.
-    pub(crate) has_csys: bool,
+    /// What has moved the points by three numbers.
+    pub(crate) shift: Shift,
     /// The frames that the file has named.
     pub(crate) named_frames: NamedFrames,
-    /// TRANS with three numbers is in force.
-    pub(crate) is_shifted: bool,
-    /// The transformation is that of a table that ROTABL has turned under the points.
-    pub(crate) has_index: bool,
-    /// The tool and the zero with which the machine was turned first.
-    pub(crate) turned_with: turned_apart::TurnedWith,
-    /// What came behind the last motion.
-    pub(crate) since: Since,
-    /// POSTN has moved the axes since the last motion. It counts whole turns itself, so that a
-    /// rapid motion need not take them back; one at feed turns from where it has left the machine.
-    pub(crate) turned_by_words: bool,
-    /// Diameter of the cutter, mm or inch.
-    pub cutter: Option<f64>,
-    /// Where the CL file stood when CUTTER named it.
-    pub(crate) cutter_named_at: Option<Point3<f64>>,
-    /// The tool changes behind the next one, where whoever drives the post has looked.
-    pub next_tools: NextTools,
-    /// The motions behind a RAPID, where whoever drives the post has looked.
-    pub coming: Vec<Coming>,
-    /// How the last feed motion ended, to judge the sense of arcs.
-    pub(crate) course: sense::Course,
-    /// Whoever chose the dialect has said which way arcs turn.
-    pub(crate) sense_is_chosen: bool,
-    /// The arcs were refused, and would not be with their sense chosen.
-    pub(crate) choice_settles_arcs: bool,
+    /// CUTTER of the tool at hand.
+    pub(crate) cutter: Option<Cutter>,
+    /// What comes, where whoever drives the post has looked.
+    pub ahead: LookAhead,
+    /// What tells which way arcs turn.
+    pub(crate) sense: Sense,
     /// What was said in blocks that can be skipped.
     pub(super) skipped: skip::Said,
 }
 
-impl Default for Path {
+/// The tool axis of the CL file.
+#[derive(Clone, Copy, Debug)]
+pub struct ToolAxis {
+    /// That of points that give none: that of the last point, or of TLAXIS.
+    pub given: Vector3<f64>,
+    /// A frame has turned under a leaning axis, which motions can't take over without saying it.
+    pub(crate) in_doubt: bool,
+    /// That in which the last motion has left the machine.
+    pub(crate) stands: Vector3<f64>,
+}
+
+impl Default for ToolAxis {
     fn default() -> Self {
-        Path {
-            stated_unit: None,
-            point: None,
-            axis: Vector3::z(),
-            stands: Vector3::z(),
-            axis_in_doubt: false,
-            multax: None,
-            has_moved: false,
-            in_cut: false,
-            is_left: false,
-            taken_behind: None,
-            rotary: None,
-            free: None,
-            turns: [Turn::default(); 2],
-            arrived: None,
-            chosen: None,
-            frame: None,
-            cylinder: None,
-            straightness: Straightness::default(),
-            writes_inverse_time: false,
-            rapid: None,
-            rapids: 0,
-            feed: None,
-            inverse_time: false,
-            in_chords: false,
-            arc: None,
-            rest: None,
-            cycle: None,
-            above_left: None,
-            thread: None,
-            thread_turns: None,
-            pitch: None,
-            turned_with: turned_apart::TurnedWith::default(),
-            lead_change: 0.0,
-            pass_end: None,
-            in_whole_thread: false,
-            awaited_thread: None,
-            transformation: None,
-            has_origin: false,
-            has_tracut: false,
-            has_csys: false,
-            named_frames: NamedFrames::default(),
-            is_shifted: false,
-            has_index: false,
-            since: Since::Motion,
-            turned_by_words: false,
-            cutter: None,
-            cutter_named_at: None,
-            next_tools: NextTools::default(),
-            coming: Vec::new(),
-            course: sense::Course::default(),
-            sense_is_chosen: false,
-            choice_settles_arcs: false,
-            skipped: skip::Said::default(),
-        }
+        ToolAxis { given: Vector3::z(), in_doubt: false, stands: Vector3::z() }
     }
 }
 
+/// The last motion, and what has come since.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LastMotion {
+    /// A motion has come.
+    pub has_moved: bool,
+    /// It was at feed: the tool may stand in its cut.
+    pub in_cut: bool,
+    /// It was written in inverse time, in which the control still is.
+    pub writes_inverse_time: bool,
+    /// What came behind it.
+    pub since: Since,
+    /// The points were moved since the last one came, or the tool away from it.
+    pub is_left: bool,
+    /// The last point when a section took a motion: behind it the CL file goes on from another one.
+    pub taken_behind: Option<Point3<f64>>,
+    /// POSTN has moved the axes. It counts whole turns itself, so that a rapid motion need not take
+    /// them back; one at feed turns from where it has left the machine.
+    pub turned_by_words: bool,
+    /// Where the last cycle has left the tip above its holes under tool-tip control, with the
+    /// last outputs of X, Y and Z then.
+    pub above_left: Option<(cycle::AboveHoles, [f64; 3])>,
+}
+
+/// How the machine turns from motion to motion.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Turning {
+    /// Last rotary positions as they are the nearest if no axis has limits, degrees.
+    pub free: Option<[f64; 2]>,
+    /// The last rotary positions that were found for a motion, with their sines.
+    pub turns: [Turn; 2],
+    /// Positions that the look-ahead has chosen for the rapid motion at hand, degrees.
+    pub chosen: Option<[f64; 2]>,
+    /// Where the last motion that turned the machine has brought it.
+    pub arrived: Option<linearization::Arrived>,
+    /// How far the tip may leave its line while the machine turns.
+    pub straightness: Straightness,
+    /// The tool and the zero with which the machine was turned first.
+    pub turned_with: turned_apart::TurnedWith,
+}
+
+/// A CIRCLE that takes many blocks.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LongArc {
+    /// The lines written now are its chords.
+    pub in_chords: bool,
+    /// What is left of one that is on the tape in part.
+    pub rest: Option<Box<long_arc::Rest>>,
+}
+
+/// What THREAD, PITCH and OP/THREAD ask for.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Threads {
+    /// Each feed motion is a pass of this thread.
+    pub passes: Option<thread::Passes>,
+    /// The lead that PITCH has given for threads that follow.
+    pub pitch: Option<thread::Pitch>,
+    /// Where the last pass has ended, from where the next motion may go on, and the number of blocks then.
+    pub pass_end: Option<(Point3<f64>, u64)>,
+    /// A whole thread is being cut: its rapid motions are those of the post.
+    pub in_whole: bool,
+    /// A whole thread that waits for its points, or has them.
+    pub awaited: Option<Box<thread::Awaited>>,
+}
+
+/// What has moved the points by three numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Shift {
+    /// Nothing.
+    #[default]
+    None,
+    /// TRANS with three numbers.
+    Trans,
+    /// ORIGIN.
+    Origin,
+}
+
+/// What CUTTER has named.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cutter {
+    /// Diameter, mm or inch.
+    pub diameter: f64,
+    /// Where the CL file stood then.
+    pub named_at: Option<Point3<f64>>,
+}
+
+/// What comes, where whoever drives the post has looked.
+#[derive(Clone, Debug, Default)]
+pub struct LookAhead {
+    /// The tool changes behind the next one.
+    pub tools: NextTools,
+    /// The motions behind a RAPID.
+    pub motions: Vec<Coming>,
+}
+
+/// What tells which way arcs turn.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sense {
+    /// How the last feed motion ended.
+    pub course: sense::Course,
+    /// Whether anybody has chosen it.
+    pub choice: Choice,
+}
+
+/// Whether whoever chose the dialect has said which way arcs turn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Choice {
+    /// Nobody has.
+    #[default]
+    Open,
+    /// He has.
+    Made,
+    /// Nobody has; the arcs were refused, and would not be with their sense chosen.
+    WouldSettle,
+}
+
 /// What came behind the last motion, so that its point may tell nothing of where the tool stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Since {
     /// Nothing that moves the tool or the points.
+    #[default]
     Motion,
     /// TRANS, ORIGIN, TRACUT, ROTABL, a named frame, FROM or a text: the last point is not where
     /// the tool stands.
@@ -200,35 +213,39 @@ pub(crate) enum Since {
 }
 
 impl Path {
+    /// The points are moved by the matrix of a statement.
+    pub(crate) fn is_moved_by(&self, statement: Statement) -> bool {
+        self.transformation.as_ref().is_some_and(|it| it.of == statement)
+    }
+
     /// A motion has brought the tool to a point and into its axis.
     #[inline]
     pub(crate) fn arrive(&mut self, target: Target) {
         self.point = Some(target.point);
-        self.axis = target.axis;
-        self.stands = target.axis;
-        self.since = Since::Motion;
-        self.has_moved = true;
-        self.is_left = false;
+        (self.axis.given, self.axis.stands) = (target.axis, target.axis);
+        self.last.since = Since::Motion;
+        self.last.has_moved = true;
+        self.last.is_left = false;
     }
 
     /// The last point, where a motion has brought the tool to it and nothing away since.
     pub(crate) fn stands_at(&self) -> Option<Point3<f64>> {
-        self.point.filter(|_| self.since == Since::Motion && self.has_moved)
+        self.point.filter(|_| self.last.since == Since::Motion && self.last.has_moved)
     }
 
     /// The last point is no longer the one at which the tool stands.
     pub(crate) fn leave_point(&mut self) {
-        self.is_left = true;
-        if self.since != Since::ToolChange {
-            self.since = Since::Frame;
+        self.last.is_left = true;
+        if self.last.since != Since::ToolChange {
+            self.last.since = Since::Frame;
         }
     }
 
     /// Something comes between two holes or two motions: the level before the cycle is
     /// the one after it, and the motions tell nothing about each other.
     pub(crate) fn interrupt(&mut self) {
-        self.course.interrupt();
-        self.above_left = None;
+        self.sense.course.interrupt();
+        self.last.above_left = None;
         if let Some(cycle) = &mut self.cycle {
             cycle.initial = None;
             cycle.above = None;

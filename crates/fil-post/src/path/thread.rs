@@ -42,6 +42,23 @@ pub(crate) struct Pitch {
     pub change: f64,
 }
 
+/// A thread of which each feed motion is a pass.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Passes {
+    pub lead: Lead,
+    /// What the lead gains in each turn, mm or inch; below zero it loses.
+    pub change: f64,
+    /// How the spindle turned in the first pass.
+    pub turns: Option<Turns>,
+}
+
+impl Passes {
+    /// The passes of a thread that is new.
+    pub fn new(lead: Lead, change: f64) -> Passes {
+        Passes { lead, change, turns: None }
+    }
+}
+
 /// How the spindle turns: its speed as SPINDL asked for it, and clockwise or not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Turns {
@@ -77,13 +94,13 @@ pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
     check_speed(post)?;
     post.require(Act::Thread)?;
     refuse_other_turns(post)?;
-    let Some(mut awaited) = post.path.awaited_thread.take() else {
+    let Some(mut awaited) = post.path.thread.awaited.take() else {
         if stands_at(post).is_none() {
             return PostCode::Thread.err("where the pass begins is not known");
         }
         refuse_blocks_between(post)?;
         carry(post, Operation::Linear(target, MotionKind::Thread(lead)))?;
-        post.path.pass_end = Some((target.point, post.control.tape.count));
+        post.path.thread.pass_end = Some((target.point, post.control.tape.count));
         return Ok(());
     };
     if awaited.is_cut {
@@ -103,7 +120,7 @@ pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
             carry(post, Operation::Thread(Box::new(thread)))?;
         }
     }
-    post.path.awaited_thread = Some(awaited);
+    post.path.thread.awaited = Some(awaited);
     Ok(())
 }
 
@@ -112,7 +129,7 @@ pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
 /// a threading block that follows another one at once without waiting for its marker). A THREAD
 /// between them that changes the lead is no way out of the groove.
 fn refuse_blocks_between(post: &Post) -> Result<()> {
-    let Some((end, count)) = post.path.pass_end else { return Ok(()) };
+    let Some((end, count)) = post.path.thread.pass_end else { return Ok(()) };
     if count == post.control.tape.count || stands_at(post) != Some(end) {
         return Ok(());
     }
@@ -128,7 +145,7 @@ fn refuse_blocks_between(post: &Post) -> Result<()> {
 /// # Errors
 /// One of them is missing.
 pub fn refuse_awaited(post: &Post) -> Result<()> {
-    match &post.path.awaited_thread {
+    match &post.path.thread.awaited {
         Some(awaited) if !awaited.is_cut => {
             PostCode::Thread.err("two GOTO must follow OP/THREAD with DEPTH and CUTS at once")
         }
@@ -149,10 +166,8 @@ pub fn stands_at(post: &Post) -> Option<Point3<f64>> {
 /// As [`refuse_awaited`].
 pub fn end(post: &mut Post) -> Result<()> {
     refuse_awaited(post)?;
-    post.path.thread = None;
-    post.path.thread_turns = None;
-    post.path.lead_change = 0.0;
-    post.path.awaited_thread = None;
+    post.path.thread.passes = None;
+    post.path.thread.awaited = None;
     Ok(())
 }
 
@@ -192,9 +207,9 @@ fn clearance_of(awaited: &Awaited, start: Target, side: ThreadSide) -> f64 {
 pub fn carry_out(post: &mut Post, thread: &Thread) -> Result<()> {
     check_machine(post)?;
     let shape = Shape::of(post, thread)?;
-    post.path.in_whole_thread = true;
+    post.path.thread.in_whole = true;
     cut(post, thread, &shape)?;
-    post.path.in_whole_thread = false;
+    post.path.thread.in_whole = false;
     Ok(())
 }
 
@@ -235,7 +250,7 @@ fn check_machine(post: &mut Post) -> Result<()> {
 /// # Errors
 /// The lead comes to nothing before the end, or the pass goes on from another one.
 pub fn counted_change(post: &Post, lead: Lead, counted: &Lead, target: Target) -> Result<f64> {
-    let change = post.path.lead_change;
+    let change = post.path.thread.passes.map_or(0.0, |passes| passes.change);
     if change == 0.0 {
         return Ok(0.0);
     }
@@ -271,7 +286,8 @@ fn refuse_other_turns(post: &mut Post) -> Result<()> {
         clockwise: spindle::clockwise_in_motion(control),
         is_side: control.spindle.is_side,
     };
-    match post.path.thread_turns {
+    let Some(passes) = &mut post.path.thread.passes else { return Ok(()) };
+    match passes.turns {
         Some(before) if before != now => {
             let mut diag = PostCode::Thread.diag(
                 "SPINDL or a text has changed how the spindle turns between the passes of a \
@@ -284,7 +300,7 @@ fn refuse_other_turns(post: &mut Post) -> Result<()> {
             Err(diag)
         }
         _ => {
-            post.path.thread_turns = Some(now);
+            passes.turns = Some(now);
             Ok(())
         }
     }

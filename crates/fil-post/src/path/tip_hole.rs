@@ -36,12 +36,12 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     }
     let axis = target.axis.normalize();
     let height = |point: Point3<f64>| (point - target.point).dot(&axis);
-    let stands = post.path.stands.normalize();
+    let stands = post.path.axis.stands.normalize();
     let here = post.path.point.map(|at| AboveHoles { before: at, axis: stands, now: at });
     let above = cycle.above.or(here);
-    let above = above.filter(|_| post.path.since != Since::ToolChange);
+    let above = above.filter(|_| post.path.last.since != Since::ToolChange);
     refuse_turned_level(cycle, above, axis)?;
-    if above.is_some() && post.path.since == Since::Frame {
+    if above.is_some() && post.path.last.since == Since::Frame {
         return PostCode::TipControl.err_with(
             "a hole right behind TRANS, ORIGIN, TRACUT, ROTABL, FROM or a text that moves the tool: \
              a GOTO between them must say where it stands",
@@ -79,7 +79,7 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
 /// # Errors
 /// The tool leans otherwise than there; as a straight motion.
 pub(super) fn retract(post: &mut Post, above: &mut AboveHoles) -> Result<()> {
-    let axis = post.path.stands.normalize();
+    let axis = post.path.axis.stands.normalize();
     if above.axis.dot(&axis) < SAME_DIRECTION {
         return PostCode::TipControl.err_with(
             "cycle.retract_block goes back to the level before the cycle, and the tool has turned \

@@ -12,6 +12,21 @@ pub struct Transformation {
     pub matrix: Matrix3x4<f64>,
     /// The tool axis is turned as well.
     pub turns_axis: bool,
+    /// What it is of.
+    pub of: Statement,
+}
+
+/// What moves the points by a matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Statement {
+    /// TRANS.
+    Trans,
+    /// TRACUT.
+    Tracut,
+    /// A frame that CSYS or its like has named.
+    NamedFrame,
+    /// ROTABL, which has turned a table under the points.
+    Table,
 }
 
 impl Transformation {

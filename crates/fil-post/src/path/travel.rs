@@ -125,7 +125,7 @@ fn way_of(post: &Post, target: Target, kind: MotionKind) -> Option<Way> {
     let stands = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
     match kind {
         MotionKind::Rapid(_) => {
-            let angles = chain.solve(axis, post.path.chosen.unwrap_or(stands)).ok()?;
+            let angles = chain.solve(axis, post.path.turning.chosen.unwrap_or(stands)).ok()?;
             Some(Way { line: [to; 2], turn: [angles; 2] })
         }
         MotionKind::Feed => {
@@ -148,6 +148,6 @@ fn choose(post: &mut Post, target: Target, way: &Way) {
     let fits = |to: &[f64; 2]| Way { line: [point; 2], turn: [*to; 2] }.is_inside(tables);
     let others = tables.chain().positions(axis, way.turn[1]).into_iter().filter(fits);
     if let Some(to) = others.min_by(|a, b| far(a).total_cmp(&far(b))) {
-        post.path.chosen = Some(to);
+        post.path.turning.chosen = Some(to);
     }
 }

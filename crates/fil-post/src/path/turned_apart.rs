@@ -50,7 +50,7 @@ fn settle_turned(post: &mut Post, angles: [f64; 2]) -> Result<()> {
     let by_table = turned(Carries::Table);
     if by_head
         && !control.commons.read(loc::TOOL_IGNORE_LENGTH)
-        && settle_tool(&mut post.path.turned_with.tool, control.state.get(modal::TOOL))
+        && settle_tool(&mut post.path.turning.turned_with.tool, control.state.get(modal::TOOL))
     {
         return PostCode::TurnedApart.err_with(
             "the head leans with a second tool, and rotary.pivot_distance is that to the tip of \
@@ -59,12 +59,12 @@ fn settle_turned(post: &mut Post, angles: [f64; 2]) -> Result<()> {
              tool.ignore_length = 1 says that all tools are equally long.",
         );
     }
-    if by_head && !post.path.turned_with.lies_across {
+    if by_head && !post.path.turning.turned_with.lies_across {
         warn_of_length_across(post, angles);
     }
     if by_table {
         let zero = zero(&post.control);
-        let with = &mut post.path.turned_with;
+        let with = &mut post.path.turning.turned_with;
         if with.zero.is_some() && zero.is_some() && with.zero != zero {
             return PostCode::TurnedApart.err_with(
                 "a table stands turned under a second work offset, and the settings say where its \
@@ -91,7 +91,10 @@ pub(super) fn settle_level(post: &mut Post) -> Result<()> {
     if !has_pivot || !rapid_lean::turned(control).is_some_and(leans) {
         return Ok(());
     }
-    if settle_tool(&mut post.path.turned_with.tool_of_levels, control.state.get(modal::TOOL)) {
+    if settle_tool(
+        &mut post.path.turning.turned_with.tool_of_levels,
+        control.state.get(modal::TOOL),
+    ) {
         return PostCode::TurnedApart.err_with(
             "a level of the machine's Z while the head leans a second tool: how far up along the \
              tool it lies is counted with rotary.pivot_distance, that to the tip of the first",
@@ -117,7 +120,7 @@ fn warn_of_length_across(post: &mut Post, angles: [f64; 2]) {
     let has_tool = control.state.get(modal::TOOL).is_some();
     if has_tool && tool.z < rapid_lean::LEAST_RISE && tool_change::counts_length(control) {
         tool_change::say_length_lies_across(control);
-        post.path.turned_with.lies_across = true;
+        post.path.turning.turned_with.lies_across = true;
     }
 }
 

@@ -38,7 +38,7 @@ pub(super) fn feed(
     let chain = post.control.tables.chain();
     let now = [motion.position[3], motion.position[4]];
     if chain.is_limited()
-        && let Some(free) = post.path.free.filter(|free| apart(*free, now))
+        && let Some(free) = post.path.turning.free.filter(|free| apart(*free, now))
     {
         return reposition::feed(post, before, free, target);
     }

@@ -46,7 +46,7 @@ pub fn note(post: &mut Post, name: &str, record: &Record) -> Result<()> {
     {
         return Ok(());
     }
-    let has_moved = post.path.has_moved;
+    let has_moved = post.path.last.has_moved;
     let frames = &mut post.path.named_frames;
     let Some(named) = frames.take(name, layout, record, has_moved) else { return Ok(()) };
     if !is_clamping {
@@ -76,7 +76,11 @@ pub(crate) fn settle(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
 /// As [`settle`].
 pub(crate) fn settle_moves(post: &mut Post) -> Result<()> {
     let moves = post.control.commons.read(loc::INPUT_CSYS) == InputCsys::PointsOfEachFrame;
-    if moves && post.path.named_frames.waits { settle_new(post, post.path.axis) } else { Ok(()) }
+    if moves && post.path.named_frames.waits {
+        settle_new(post, post.path.axis.given)
+    } else {
+        Ok(())
+    }
 }
 
 /// Settles them before a point without an axis of its own, which takes over the last one.
@@ -88,8 +92,8 @@ pub(crate) fn settle_axis(post: &mut Post, record: &Record) -> Result<()> {
     if record.sub == motion::FROM {
         return Ok(());
     }
-    settle(post, post.path.axis)?;
-    if post.path.axis_in_doubt {
+    settle(post, post.path.axis.given)?;
+    if post.path.axis.in_doubt {
         return PostCode::OtherFrame.err_with(
             "a point without a tool axis, behind a frame that has turned under a leaning one",
             "Give the tool axis with the first point in the frame (GOTO/x,y,z,i,j,k), or by TLAXIS.",
@@ -162,7 +166,8 @@ fn move_points(post: &mut Post) -> Result<()> {
     let turns = (turn(post.path.transformation.as_ref()) - turn(moved.as_ref())).amax() > SAME;
     trans::csys(post, &word, moved)?;
     // Whether a leaning axis stays in space or in numbers is not in the file.
-    post.path.axis_in_doubt = turns && (post.path.axis.normalize() - Vector3::z()).norm() > ALONG;
+    post.path.axis.in_doubt =
+        turns && (post.path.axis.given.normalize() - Vector3::z()).norm() > ALONG;
     Ok(())
 }
 

@@ -3,6 +3,7 @@
 use fil_diag::Result;
 
 use crate::items::Items;
+use crate::path::Cutter;
 use crate::post::Post;
 
 /// Measures of an APT cutter behind the diameter: corner radius, center of the corner,
@@ -15,8 +16,8 @@ const MEASURES: usize = 6;
 /// # Errors
 /// No number, or what is no measure of a cutter.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
-    post.path.cutter = Some(items.required("the diameter")?);
-    post.path.cutter_named_at = post.path.point;
+    let diameter = items.required("the diameter")?;
+    post.path.cutter = Some(Cutter { diameter, named_at: post.path.point });
     let _measures: Vec<f64> = std::iter::from_fn(|| items.number()).take(MEASURES).collect();
     items.deny_rest()
 }
@@ -24,7 +25,6 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
 /// A tool change forgets the diameter of the tool before it. CUTTER may stand before the
 /// change of the tool that it describes, as long as no motion comes between them.
 pub(super) fn forget(post: &mut Post) {
-    if post.path.cutter_named_at != post.path.point {
-        post.path.cutter = None;
-    }
+    let point = post.path.point;
+    post.path.cutter = post.path.cutter.filter(|cutter| cutter.named_at == point);
 }

@@ -7,9 +7,9 @@ use crate::control::word_address::spindle;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{CountedSpindle, End, Operation, Spindle};
-use crate::path::carry_out;
 use crate::path::sense::Verdict;
 use crate::path::thread;
+use crate::path::{Choice, carry_out};
 use crate::post::Post;
 
 /// END: end of the program without rewinding it.
@@ -82,14 +82,14 @@ fn count(post: &mut Post, is_side: bool) -> Result<()> {
 
 /// Refuses a program whose arcs, taken together, turn the wrong way.
 fn judge_arcs(post: &mut Post) -> Result<()> {
-    match post.path.course.conclude() {
+    match post.path.sense.course.conclude() {
         Verdict::Fits => {}
         Verdict::Contradicted(why) => return PostCode::ArcSense.err(why),
-        Verdict::Doubtful(why) if !post.path.sense_is_chosen => {
-            post.path.choice_settles_arcs = true;
+        Verdict::Doubtful(why) if post.path.sense.choice != Choice::Made => {
+            post.path.sense.choice = Choice::WouldSettle;
             return PostCode::ArcSense.err(why);
         }
-        Verdict::Open(_) if post.path.sense_is_chosen => {}
+        Verdict::Open(_) if post.path.sense.choice == Choice::Made => {}
         Verdict::Doubtful(why) | Verdict::Unproved(why) | Verdict::Open(why) => {
             post.warn(PostCode::ArcUnproved, why)
         }

@@ -15,14 +15,14 @@ pub fn handle(post: &mut Post, target: Target) -> Result<()> {
     thread::refuse_awaited(post)?;
     let path = &mut post.path;
     path.point = Some(target.point);
-    path.axis = target.axis;
+    path.axis.given = target.axis;
     if path.rotary.is_none() {
-        path.stands = target.axis;
+        path.axis.stands = target.axis;
     }
-    if path.has_moved {
+    if path.last.has_moved {
         path.leave_point();
     }
     // GODLTA counts from here.
-    path.is_left = false;
+    path.last.is_left = false;
     Ok(())
 }

@@ -24,14 +24,14 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let Some(start) = post.path.point else {
         return PostCode::ArcStart.err("GODLTA before any FROM or GOTO");
     };
-    csys::settle(post, post.path.axis)?;
-    if post.path.is_left {
+    csys::settle(post, post.path.axis.given)?;
+    if post.path.last.is_left {
         return PostCode::ArcStart.err(
             "GODLTA right behind TRANS, a new frame or a text that moves the tool: it does not \
              stand at the last point",
         );
     }
-    if post.path.taken_behind == Some(start) {
+    if post.path.last.taken_behind == Some(start) {
         return PostCode::ArcStart.err(
             "GODLTA behind a motion that a section has taken: it counts from a point that the \
              post has not seen",
@@ -43,12 +43,12 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     items.skip(usize::from(POINT) - FIRST_DATA);
     let (step, word) = match items.numbers()[..] {
         [x, y, z] => (Vector3::new(x, y, z), POINT),
-        [distance] => (post.path.axis.normalize() * distance, 0),
+        [distance] => (post.path.axis.given.normalize() * distance, 0),
         _ => return Err(items.error("one or three increments are needed")),
     };
     items.deny_rest()?;
-    let target = Target { point: start + step, axis: post.path.axis, word };
-    if goto::drills(post) && step.cross(&post.path.axis).norm() <= ALONG * step.norm() {
+    let target = Target { point: start + step, axis: post.path.axis.given, word };
+    if goto::drills(post) && step.cross(&post.path.axis.given).norm() <= ALONG * step.norm() {
         return PostCode::InCycle
             .err("GODLTA along the tool axis: whether it drills a hole or lifts the tool is open");
     }

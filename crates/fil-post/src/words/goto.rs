@@ -58,10 +58,10 @@ pub fn point(post: &mut Post, target: Target) -> Result<()> {
 /// before the first one: nobody knows whether that is a hole.
 #[cold]
 fn rapid_between_holes(post: &mut Post, target: Target, clear: f64) -> Result<()> {
-    let least = if post.path.since == Since::Hole { clear } else { 0.0 };
+    let least = if post.path.last.since == Since::Hole { clear } else { 0.0 };
     let above = |from: Point3<f64>| (target.point - from).dot(&target.axis.normalize());
     let is_below = post.path.point.is_some_and(|from| above(from) < least - SAME_LEVEL);
-    if is_below && post.path.since != Since::ToolChange {
+    if is_below && post.path.last.since != Since::ToolChange {
         return PostCode::CycleForm.err_with(
             "RAPID in a cycle leads below the level over the holes: a way to a hole, or a hole",
             "Leave RAPID out where the point is a hole, the cycle goes there at rapid; end the cycle \
@@ -132,7 +132,7 @@ fn warn_behind_stop(post: &mut Post) {
 /// Rapid after RAPID, a pass of a thread in a thread, else at feed.
 #[inline]
 pub fn kind_of_motion(post: &mut Post) -> MotionKind {
-    match (post.path.rapid.take(), post.path.thread) {
+    match (post.path.rapid.take(), post.path.thread.passes.map(|passes| passes.lead)) {
         (Some(cause), _) => MotionKind::Rapid(cause),
         (None, Some(lead)) => MotionKind::Thread(lead),
         (None, None) => MotionKind::Feed,
@@ -149,7 +149,7 @@ pub fn gohome(post: &mut Post, items: &mut Items) -> Result<()> {
         return home::gohome(post, items);
     }
     let (point, axis) = match items.numbers()[..] {
-        [x, y, z] => (Point3::new(x, y, z), post.path.axis),
+        [x, y, z] => (Point3::new(x, y, z), post.path.axis.given),
         [x, y, z, i, j, k] => (Point3::new(x, y, z), checked_axis(post, Vector3::new(i, j, k))?),
         _ => return Err(items.error("a point x, y, z is missing")),
     };

@@ -29,8 +29,8 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if tolerance.is_some() {
         post.control.require_unit()?;
     }
-    let before = post.path.straightness.tolerance;
-    post.path.straightness =
+    let before = post.path.turning.straightness.tolerance;
+    post.path.turning.straightness =
         Straightness { tolerance: tolerance.or(before), off: switch == Some(w::OFF) };
     Ok(())
 }

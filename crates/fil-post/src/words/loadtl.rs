@@ -43,12 +43,12 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     }
     thread::end(post)?;
     post.path.interrupt();
-    post.path.since = Since::ToolChange;
-    post.path.in_cut = false;
+    post.path.last.since = Since::ToolChange;
+    post.path.last.in_cut = false;
     cutter::forget(post);
     tool_names::load(&mut post.control, tool)?;
     let causes = [cause, offset_cause];
-    let next = std::mem::take(&mut post.path.next_tools);
+    let next = std::mem::take(&mut post.path.ahead.tools);
     let change = ToolChange { tool, offset, offset_given, next, causes };
     carry_out(post, Operation::ToolChange(change))
 }

@@ -22,8 +22,8 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     items.deny_rest()?;
     post.path.multax = Some(!off);
     if off {
-        post.path.axis_in_doubt = false;
-        post.path.axis = Vector3::z();
+        post.path.axis.in_doubt = false;
+        post.path.axis.given = Vector3::z();
     }
     Ok(())
 }
@@ -42,7 +42,7 @@ pub fn tlaxis(post: &mut Post, items: &mut Items) -> Result<()> {
         return PostCode::AxisLength.err("the tool axis has length zero");
     }
     csys::settle_moves(post)?;
-    post.path.axis_in_doubt = false;
-    post.path.axis = axis;
+    post.path.axis.in_doubt = false;
+    post.path.axis.given = axis;
     Ok(())
 }

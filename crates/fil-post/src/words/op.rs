@@ -10,7 +10,7 @@ use super::thread::{lead, springs_of, starts, usual_clearance};
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{Lead, Target, Thread, ThreadPasses, ThreadSide};
-use crate::path::thread::{self, Awaited};
+use crate::path::thread::{self, Awaited, Passes};
 use crate::post::Post;
 
 /// An angle of the cone nearer to that of the two points is the same, degrees.
@@ -44,7 +44,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
             if starts != 1 || given(springs).is_some() || given(cone).is_some() {
                 return Err(items.error("MULTRD, FINCUT and CUTANG need DEPTH and CUTS"));
             }
-            post.path.thread = Some(pitch);
+            post.path.thread.passes = Some(Passes::new(pitch, 0.0));
             return Ok(());
         }
         _ => return PostCode::Thread.err("OP/THREAD needs DEPTH and CUTS, or neither"),
@@ -55,9 +55,10 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if cuts.fract() != 0.0 || !(1.0..=1000.0).contains(&cuts) {
         return PostCode::Thread.err(format!("{cuts} passes"));
     }
-    csys::settle(post, post.path.axis)?;
-    let from = thread::stands_at(post).map(|point| Target { point, axis: post.path.axis, word: 0 });
-    let nowhere = Target { point: Default::default(), axis: post.path.axis, word: 0 };
+    csys::settle(post, post.path.axis.given)?;
+    let from =
+        thread::stands_at(post).map(|point| Target { point, axis: post.path.axis.given, word: 0 });
+    let nowhere = Target { point: Default::default(), axis: post.path.axis.given, word: 0 };
     let thread = Thread {
         crest: [nowhere; 2],
         side: ThreadSide::Outside,
@@ -69,8 +70,8 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         angle: 0.0,
         clearance: usual_clearance(post),
     };
-    post.path.thread = Some(pitch);
+    post.path.thread.passes = Some(Passes::new(pitch, 0.0));
     let awaited = Awaited { thread, on_face, from, start: None, is_cut: false };
-    post.path.awaited_thread = Some(Box::new(awaited));
+    post.path.thread.awaited = Some(Box::new(awaited));
     Ok(())
 }

@@ -14,7 +14,7 @@ use super::goto;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::Operation;
-use crate::path::carry_out;
+use crate::path::{Statement, carry_out};
 use crate::post::Post;
 
 /// The words that name an axis, A, B and C.
@@ -34,7 +34,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
     if post.control.commons.read(loc::ROTARY_TABLE_WORDS) == RotaryTableWords::Refused {
         return Ok(false);
     }
-    if post.path.has_csys {
+    if post.path.is_moved_by(Statement::NamedFrame) {
         return Err(items.error("a frame of the file moves the points already"));
     }
     if !items.flag(w::TABLE) && items.major() == w::ROTATE {

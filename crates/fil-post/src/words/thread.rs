@@ -12,7 +12,7 @@ use super::csys;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{Lead, Operation, Target, Thread, ThreadPasses, ThreadSide};
-use crate::path::thread::{MOST_STARTS, Pitch};
+use crate::path::thread::{MOST_STARTS, Passes, Pitch};
 use crate::path::{carry_out, thread};
 use crate::post::Post;
 
@@ -33,7 +33,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         return automatic(post, items);
     }
     let says_lead = [w::TPI, w::MMPR, w::IPR].into_iter().any(|word| items.has(word));
-    let pitch = post.path.pitch.filter(|_| !says_lead);
+    let pitch = post.path.thread.pitch.filter(|_| !says_lead);
     let (lead, change) = match pitch {
         Some(Pitch { lead, change }) => (lead, change),
         None => (lead(post, items)?, 0.0),
@@ -41,8 +41,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     items.flag(w::TURN);
     items.flag(w::ON);
     items.deny_rest()?;
-    post.path.thread = Some(lead);
-    post.path.lead_change = change;
+    post.path.thread.passes = Some(Passes::new(lead, change));
     Ok(())
 }
 
@@ -94,7 +93,7 @@ pub fn pitch(post: &mut Post, items: &mut Items) -> Result<()> {
         }
     };
     let lead = Lead { value: lead, cause: post.control.block.cause };
-    post.path.pitch = Some(Pitch { lead, change });
+    post.path.thread.pitch = Some(Pitch { lead, change });
     Ok(())
 }
 
@@ -105,7 +104,7 @@ pub fn pitch(post: &mut Post, items: &mut Items) -> Result<()> {
 /// Another order of the points; a value that is missing; AT and OFSETL, whose meaning is not
 /// known; and as the thread itself.
 fn automatic(post: &mut Post, items: &mut Items) -> Result<()> {
-    csys::settle(post, post.path.axis)?;
+    csys::settle(post, post.path.axis.given)?;
     let crest = points(post, items)?;
     if items.has(w::AT) {
         return Err(items.error("AT,percent: what it is a part of is not known"));
@@ -171,7 +170,7 @@ fn points(post: &Post, items: &mut Items) -> Result<[Target; 2]> {
         return Err(wrong(items));
     }
     let [x1, y1, z1, x2, y2, z2] = values;
-    let at = |x, y, z| Target { point: Point3::new(x, y, z), axis: post.path.axis, word: 0 };
+    let at = |x, y, z| Target { point: Point3::new(x, y, z), axis: post.path.axis.given, word: 0 };
     Ok([at(x1, y1, z1), at(x2, y2, z2)])
 }
 

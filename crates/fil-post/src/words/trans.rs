@@ -16,7 +16,7 @@ use crate::control::needs::Act;
 use crate::control::sinumerik::translation;
 use crate::errors::PostCode;
 use crate::items::Items;
-use crate::path::{Transformation, compensation_side, thread};
+use crate::path::{Shift, Statement, Transformation, compensation_side, thread};
 use crate::post::Post;
 
 /// OPTION that leaves the tool axis alone.
@@ -29,13 +29,13 @@ const POINTS_ONLY: f64 = 10.0;
 /// a CIRCLE and its end.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     refuse_on_arc(post, "TRANS")?;
-    let path = &post.path;
-    if path.has_origin || path.has_tracut || path.has_index || path.has_csys {
+    let by_matrix = post.path.transformation.as_ref().map(|it| it.of);
+    if post.path.shift == Shift::Origin || by_matrix.is_some_and(|of| of != Statement::Trans) {
         return Err(items.error("ORIGIN, TRACUT, ROTABL or a named frame moves the points already"));
     }
     if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
         items.deny_rest()?;
-        post.path.is_shifted = false;
+        post.path.shift = Shift::None;
         turn(post, None)?;
         return translate(post, [0.0; 3]);
     }
@@ -49,13 +49,14 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         if option.is_some() {
             return Err(items.error("OPTION needs the twelve numbers of a matrix"));
         }
-        if post.path.transformation.is_some() {
+        if by_matrix.is_some() {
             return Err(both(items));
         }
-        post.path.is_shifted = numbers.iter().any(|number| *number != 0.0);
+        let moves = numbers.iter().any(|number| *number != 0.0);
+        post.path.shift = if moves { Shift::Trans } else { Shift::None };
         return translate(post, [x, y, z]);
     }
-    if post.path.is_shifted {
+    if post.path.shift == Shift::Trans {
         return Err(both(items));
     }
     if numbers.len() != 12 {
@@ -65,6 +66,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let trans = Transformation {
         matrix: Matrix3x4::from_row_slice(&numbers),
         turns_axis: option.is_none() && kind != InputKind::MatrixOnPoints,
+        of: Statement::Trans,
     };
     turn(post, Some(trans))
 }
@@ -97,24 +99,24 @@ pub fn origin(post: &mut Post, items: &mut Items) -> Result<bool> {
         InputOrigin::ZeroOfThePartOnTheMachine => 1.0,
     };
     refuse_on_arc(post, "ORIGIN")?;
-    if post.path.has_index {
+    if post.path.is_moved_by(Statement::Table) {
         return Err(items.error("ROTABL moves the points already"));
     }
     let stands = loc::INPUT_TRANSLATE
         .iter()
         .any(|at| post.control.commons.dbl_opt(*at).is_some_and(|value| value != 0.0));
-    if stands && !post.path.has_origin {
+    if stands && post.path.shift != Shift::Origin {
         return Err(items.error("TRANS or the machine moves the points already"));
     }
     if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
-        post.path.has_origin = false;
+        post.path.shift = Shift::None;
         translate(post, [0.0; 3])?;
         return Ok(true);
     }
     let [x, y, z] = items.numbers()[..] else {
         return Err(items.error("three numbers x, y, z, or NOMORE, are needed"));
     };
-    post.path.has_origin = true;
+    post.path.shift = Shift::Origin;
     translate(post, [sign * x, sign * y, sign * z])?;
     Ok(true)
 }
@@ -130,12 +132,11 @@ pub fn tracut(post: &mut Post, items: &mut Items) -> Result<bool> {
         return Ok(false);
     }
     refuse_on_arc(post, "TRACUT")?;
-    if post.path.transformation.is_some() && !post.path.has_tracut {
+    if post.path.transformation.is_some() && !post.path.is_moved_by(Statement::Tracut) {
         return Err(items.error("TRANS or a named frame moves the points already"));
     }
     if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
         turn(post, None)?;
-        post.path.has_tracut = false;
         return Ok(true);
     }
     let numbers = items.numbers();
@@ -145,8 +146,8 @@ pub fn tracut(post: &mut Post, items: &mut Items) -> Result<bool> {
         );
     }
     let matrix = Matrix3x4::from_row_slice(&numbers);
-    turn(post, Some(Transformation { matrix, turns_axis: true }))?;
-    post.path.has_tracut = true;
+    let trans = Transformation { matrix, turns_axis: true, of: Statement::Tracut };
+    turn(post, Some(trans))?;
     Ok(true)
 }
 
@@ -155,20 +156,17 @@ pub fn tracut(post: &mut Post, items: &mut Items) -> Result<bool> {
 /// # Errors
 /// Another word that moves the points, a place between a CIRCLE and its end.
 pub(super) fn csys(post: &mut Post, word: &str, moved: Option<Transformation>) -> Result<()> {
-    if moved.is_none() && !post.path.has_csys {
+    let is_moved = post.path.is_moved_by(Statement::NamedFrame);
+    if moved.is_none() && !is_moved {
         return Ok(());
     }
     refuse_on_arc(post, word)?;
-    let path = &post.path;
-    let has_matrix = path.transformation.is_some() && !path.has_csys;
-    if has_matrix || path.is_shifted || path.has_origin || path.has_tracut || path.has_index {
+    let has_matrix = post.path.transformation.is_some() && !is_moved;
+    if has_matrix || post.path.shift != Shift::None {
         return PostCode::OtherFrame
             .err(format!("{word}: TRANS, ORIGIN, TRACUT or ROTABL moves the points already"));
     }
-    let has_csys = moved.is_some();
-    turn(post, moved)?;
-    post.path.has_csys = has_csys;
-    Ok(())
+    turn(post, moved)
 }
 
 fn refuse_on_arc(post: &Post, word: &str) -> Result<()> {

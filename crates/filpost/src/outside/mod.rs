@@ -220,7 +220,7 @@ impl<'o, 'r> Outside<'o, 'r> {
         }
         let stretch = Stretch::of(&self.post.control.commons);
         if stretch.is_none() || self.in_stretch == Some(true) {
-            self.post.path.coming = self.source.motions_ahead(stretch, vocabulary);
+            self.post.path.ahead.motions = self.source.motions_ahead(stretch, vocabulary);
         }
     }
 
@@ -239,7 +239,7 @@ impl<'o, 'r> Outside<'o, 'r> {
         vocabulary: &mut Vocabulary,
     ) -> Result<(), Box<Diag>> {
         if self.post.looks_ahead_for_tools() {
-            self.post.path.next_tools = self.source.next_tools(record, vocabulary)?;
+            self.post.path.ahead.tools = self.source.next_tools(record, vocabulary)?;
         }
         Ok(())
     }

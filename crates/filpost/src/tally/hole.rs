@@ -29,7 +29,7 @@ impl Hole {
     /// The hole of the cycle in force that the post has just drilled, and the way to its R
     /// level from where the tool stood: over the hole at its level, then down or up.
     pub(super) fn new(cycle: &Cycle, from: [f64; 3], to: [f64; 3], post: &Post) -> (Self, f64) {
-        let axis = [post.path.axis.x, post.path.axis.y, post.path.axis.z];
+        let axis = [post.path.axis.given.x, post.path.axis.given.y, post.path.axis.given.z];
         let height: f64 = (0..3).map(|i| (from[i] - to[i]) * axis[i]).sum();
         let over = [0, 1, 2].map(|i| to[i] + axis[i] * height);
         let way = distance(from, over) + (height - cycle.clear).abs();
@@ -52,7 +52,7 @@ impl Hole {
 
     /// Where the tool stands behind the hole of a point.
     pub(super) fn rests_at(&self, point: [f64; 3], post: &Post) -> [f64; 3] {
-        let axis = [post.path.axis.x, post.path.axis.y, post.path.axis.z];
+        let axis = [post.path.axis.given.x, post.path.axis.given.y, post.path.axis.given.z];
         [0, 1, 2].map(|i| point[i] + axis[i] * self.rest)
     }
 

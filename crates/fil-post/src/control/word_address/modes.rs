@@ -63,9 +63,7 @@ fn say_again(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
     let in_cycle = !own.has_cycle() && !control.state.is(modal::CYCLE, false);
     if in_cycle && sinumerik {
         sinumerik::cycle::cancel(control)?;
-    } else if in_cycle
-        && !say(control, control.code_if_any(loc::CYCLE_OFF_CODE))
-    {
+    } else if in_cycle && !say(control, control.code_if_any(loc::CYCLE_OFF_CODE)) {
         control.state.set(modal::CYCLE, false);
     }
     if !control.state.is(modal::DIAMETER_MODE, true) {

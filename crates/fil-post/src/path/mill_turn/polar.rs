@@ -166,7 +166,7 @@ pub(super) fn line(
 
 /// A motion moves Z together with X and C, and upwards or not; `None` for any other.
 fn rising(post: &Post, to: Point3<f64>) -> Option<bool> {
-    let from = post.path.point.map(|point| Target { point, axis: post.path.axis, word: 0 });
+    let from = post.path.point.map(|point| Target { point, axis: post.path.axis.given, word: 0 });
     let from = from.map(|target| rotary::transformed(post, target).0);
     let moves = |number: usize| {
         let on_tape = post.control.tables.axis(number).on_tape(to[number]);
@@ -295,7 +295,7 @@ pub(super) fn end(post: &mut Post) -> Result<()> {
         true => modes::plane_of_turning(control)?,
         false => control.state.forget(modal::PLANE, Source::Post),
     }
-    let here = post.path.point.map(|point| Target { point, axis: post.path.axis, word: 0 });
+    let here = post.path.point.map(|point| Target { point, axis: post.path.axis.given, word: 0 });
     let here = here.map(|target| rotary::transformed(post, target).0);
     post.path.rotary = here.map(|point| [libm::atan2(point.y, point.x).to_degrees(), 0.0]);
     Ok(())
