@@ -401,7 +401,7 @@ fn are_meant(post: &Post, mut parts: Parts) -> Result<bool> {
 
 /// Degrees of an arc as long as two last digits: a part shorter than that would be
 /// rounded away.
-fn least_angle(post: &Post, arc: &PlaneArc) -> f64 {
+pub(super) fn least_angle(post: &Post, arc: &PlaneArc) -> f64 {
     let digits = arc.plane.axes().map(|number| post.control.tables.axis(number).resolution());
     (2.0 * digits[0].max(digits[1]) / arc.radius).to_degrees().max(1e-6)
 }
@@ -432,3 +432,6 @@ fn usual_step(post: &Post, arc: &PlaneArc) -> Step {
         Step::Turns
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -122,3 +122,6 @@ impl Chords {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -324,3 +324,32 @@ pub fn of_short_rapid(post: &Post, motion: &Motion, target: Target) -> Option<Fe
     let cause = post.control.block.cause;
     (length < short).then_some(Feed { value, asked: value, mode: FeedMode::PerMinute, cause })
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::cause::Cause;
+    use crate::path::trial::post;
+
+    proptest! {
+        /// No axis goes faster than its largest feed, and a feed is lowered no more than that needs.
+        #[test]
+        fn a_feed_is_brought_within_that_of_the_axes(
+            value in 1.0..9000.0, way in [-50.0..50.0, -50.0..50.0, -50.0..50.0],
+            most in [100.0..3000.0, 100.0..3000.0],
+        ) {
+            let [y, z] = most;
+            let mut post = post(&[("feed.upm_max_y", y), ("feed.upm_max_z", z)]);
+            let feed = Feed { value, mode: FeedMode::PerMinute, cause: Cause::default() };
+            let length = way.iter().map(|way| way * way).sum::<f64>().sqrt();
+            let found = within_axes(&mut post, feed, way.map(Some), Some(length)).value;
+            let shares = [way[1].abs() / length, way[2].abs() / length];
+            let rest = shares.iter().zip(most).map(|(share, most)| most - found * share);
+            let rest = rest.fold(f64::INFINITY, f64::min);
+            prop_assert!(rest > -1e-6 * value, "{rest}");
+            prop_assert!(found == value || rest.abs() < 1e-6 * value, "{found} of {value}");
+        }
+    }
+}

@@ -173,3 +173,6 @@ impl Parts {
         Ok(Some(part))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -45,6 +45,8 @@ mod tip_hole;
 pub mod tool_change;
 mod transformation;
 mod travel;
+#[cfg(test)]
+mod trial;
 mod turned_apart;
 mod turning;
 mod turning_feed;

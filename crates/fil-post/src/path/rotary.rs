@@ -349,3 +349,6 @@ pub fn word_of(post: &Post, target: Target) -> u16 {
         || target.axis != chain.tool.into_inner();
     if mixed { 0 } else { target.word }
 }
+
+#[cfg(test)]
+mod tests;

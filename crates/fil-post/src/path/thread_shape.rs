@@ -305,3 +305,41 @@ pub fn least_depth(post: &Post) -> f64 {
 fn chamfer(post: &Post) -> f64 {
     post.control.commons.dbl_opt(loc::THREAD_CHAMFER).unwrap_or(0.0).max(0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// Each pass goes deeper than the one before, by no more chip than the first, and the last
+        /// one to the depth.
+        #[test]
+        fn passes_by_the_first_take_equal_chips(
+            depth in 0.1..5.0, first in 0.05..1.0, least in 0.0..0.05,
+        ) {
+            let depths = by_first(depth, first, least);
+            prop_assert_eq!(*depths.last().unwrap(), depth);
+            prop_assert!((depths[0] - f64::min(first, depth)).abs() < 1e-12);
+            for (at, pair) in depths.windows(2).enumerate() {
+                let [before, now] = [pair[0], pair[1]];
+                prop_assert!(now > before);
+                // A chip is as large as the difference of two squares: the flanks open evenly.
+                let chip = now * now - before * before;
+                let by_least = (now - before - least).abs() < 1e-9;
+                prop_assert!(chip <= first * first + 1e-9 || by_least, "pass {at}: {chip}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_first_pass_deeper_than_the_thread_is_the_only_one() {
+        assert_eq!(by_first(0.5, 0.8, 0.0), [0.5]);
+        // By hand: the roots of 1, 2 and 3 times 0.4, then the depth.
+        let passes = by_first(0.75, 0.4, 0.0);
+        let by_hand = [0.4, 0.565_685_424_949_238, 0.692_820_323_027_551, 0.75];
+        assert!(passes.iter().zip(by_hand).all(|(pass, by_hand)| (pass - by_hand).abs() < 1e-12));
+        assert_eq!(passes.len(), by_hand.len());
+    }
+}

@@ -67,3 +67,47 @@ impl Transformation {
         self.linear().determinant() < 0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Rotation3;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn of(linear: Matrix3<f64>, shift: Vector3<f64>) -> Transformation {
+        let columns =
+            [linear.column(0).into(), linear.column(1).into(), linear.column(2).into(), shift];
+        let matrix = Matrix3x4::from_columns(&columns);
+        Transformation { matrix, turns_axis: true, of: Statement::Trans }
+    }
+
+    proptest! {
+        /// A turn and a shift keep lengths; a mirror image too, and it mirrors.
+        #[test]
+        fn turns_keep_lengths(
+            angles in [-3.0..3.0, -3.0..3.0, -3.0..3.0], shift in [-99.0..99.0, -99.0..99.0, -99.0..99.0],
+            one in [-99.0..99.0, -99.0..99.0, -99.0..99.0], other in [-99.0..99.0, -99.0..99.0, -99.0..99.0],
+            mirrors in any::<bool>(),
+        ) {
+            let turn = Rotation3::from_euler_angles(angles[0], angles[1], angles[2]).into_inner();
+            let side = if mirrors { -1.0 } else { 1.0 };
+            let trans = of(turn * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, side)), shift.into());
+            let [one, other] = [one, other].map(Point3::from);
+            let way = (trans.point(one) - trans.point(other)).norm();
+            prop_assert!((way - (one - other).norm()).abs() < 1e-9);
+            prop_assert!(trans.is_rigid() && trans.stretch() == 1.0);
+            prop_assert_eq!(trans.mirrors(), mirrors);
+        }
+
+        /// No length grows by more than the stretch says.
+        #[test]
+        fn nothing_grows_beyond_the_stretch(
+            rows in proptest::array::uniform9(-3.0..3.0), way in [-1.0..1.0, -1.0..1.0, -1.0..1.0],
+        ) {
+            let trans = of(Matrix3::from_row_slice(&rows), Vector3::zeros());
+            let way = Vector3::from(way);
+            prop_assert!(trans.axis(way).norm() <= trans.stretch() * way.norm() + 1e-9);
+        }
+    }
+}
