@@ -96,7 +96,7 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         && sweep <= FULL
         && family::reads_as_meant(&post.control, &whole)?
     {
-        let feed = feed_rules::of_arc(post, &whole)?;
+        let feed = feed_rules::settle_of_arc(post, &whole)?;
         family::arc(&mut post.control, &whole, feed.as_ref())?;
         post.path.arrive(target);
         Ok(())

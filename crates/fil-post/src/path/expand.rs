@@ -101,7 +101,7 @@ pub(super) enum WayOut {
 ///
 /// # Errors
 /// A bored or reamed hole whose cycle does at the bottom what single moves can't say.
-pub(super) fn way_out(control: &mut Control, cycle: &Cycle) -> Result<WayOut> {
+pub(super) fn settle_way_out(control: &mut Control, cycle: &Cycle) -> Result<WayOut> {
     let bored = matches!(cycle.kind, CycleKind::Bore | CycleKind::Ream);
     if cycle.kind == CycleKind::Bore {
         match control.commons.read(loc::CYCLE_BORE_OUT) {
@@ -161,7 +161,7 @@ impl Moves<'_> {
             let cause = self.cycle.due_to(self.cycle.words.dwell);
             self.control.because(cause, |control| family::dwell(control, seconds))?;
         }
-        match way_out(self.control, self.cycle)? {
+        match settle_way_out(self.control, self.cycle)? {
             WayOut::Rapid => self.rapid(self.hole.rest()),
             WayOut::Feed => {
                 self.feed(self.hole.clear)?;

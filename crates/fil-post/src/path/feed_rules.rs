@@ -45,15 +45,15 @@ pub fn line(
         return family::feed(&mut post.control, motion, None);
     };
     let way = way(post, motion);
-    for axes in parts(post, way)? {
+    for axes in split_slanted(post, way)? {
         let part = motion.of(*axes);
         let length = length(post, way, *axes, target);
         if stands(post, way, length) {
             turn_on_the_spot(post, motion, feed, before)?;
             continue;
         }
-        let feed = within_axes(post, feed, way, length);
-        let feed = in_force(post, feed, length)?;
+        let feed = limit_to_axes(post, feed, way, length);
+        let feed = put_in_force(post, feed, length)?;
         family::feed(&mut post.control, &part, Some(&feed))?;
     }
     Ok(())
@@ -68,11 +68,11 @@ fn way(post: &Post, motion: &Motion) -> [Option<f64>; 3] {
     })
 }
 
-/// The axes that go together, in the order of the machine.
+/// The axes that go together, in the order of the machine; warns of a slanted line that is two.
 ///
 /// # Errors
 /// A part of an arc would go in steps.
-fn parts(post: &mut Post, way: [Option<f64>; 3]) -> Result<&'static [AxisSet]> {
+fn split_slanted(post: &mut Post, way: [Option<f64>; 3]) -> Result<&'static [AxisSet]> {
     let goes = |number: usize| {
         let axis = post.control.tables.axis(number);
         let resolution = axis.resolution();
@@ -179,7 +179,7 @@ fn turn_on_the_spot(
         return Ok(());
     }
     if !post.path.inverse_time {
-        let feed = within_shares(post, feed, [1.0; 2]);
+        let feed = limit_shares(post, feed, [1.0; 2]);
         return family::feed(&mut post.control, motion, Some(&feed));
     }
     let rotary = TurningFeed::of(post)?;
@@ -188,8 +188,8 @@ fn turn_on_the_spot(
     family::feed(&mut post.control, motion, Some(&part.feed))
 }
 
-/// A feed a minute at which neither Y nor Z goes faster than it may.
-pub(super) fn within_axes(
+/// Brings a feed a minute within what Y and Z may go, with a warning.
+pub(super) fn limit_to_axes(
     post: &mut Post,
     feed: Feed,
     way: [Option<f64>; 3],
@@ -200,11 +200,11 @@ pub(super) fn within_axes(
         Some(way) if length > NO_WAY => (way.abs() / length).min(1.0),
         _ => 1.0,
     });
-    within_shares(post, feed, shares)
+    limit_shares(post, feed, shares)
 }
 
 /// The same; Y and Z go at these shares of the feed at most.
-fn within_shares(post: &mut Post, feed: Feed, shares: [f64; 2]) -> Feed {
+fn limit_shares(post: &mut Post, feed: Feed, shares: [f64; 2]) -> Feed {
     let mut largest_of = post.control.tables.motion.largest_of;
     let tables = &post.control.tables;
     if tables.axis(1).is_off() || tables.is_polar() || tables.is_unrolled() {
@@ -225,12 +225,12 @@ fn within_shares(post: &mut Post, feed: Feed, shares: [f64; 2]) -> Feed {
     Feed { value: value * factor, ..feed }
 }
 
-/// The feed as the program says it on a way of this length: inverse time where FEDRAT has
-/// asked for it. F then stands in each block.
+/// Brings a feed into the form in which the program says it on a way of this length: inverse time
+/// where FEDRAT has asked for it. F then stands in each block.
 ///
 /// # Errors
 /// A way that is not known, or none; a feed a revolution.
-fn in_force(post: &mut Post, feed: Feed, length: Option<f64>) -> Result<Feed> {
+fn put_in_force(post: &mut Post, feed: Feed, length: Option<f64>) -> Result<Feed> {
     if !post.path.inverse_time {
         return Ok(feed);
     }
@@ -256,13 +256,13 @@ fn in_force(post: &mut Post, feed: Feed, length: Option<f64>) -> Result<Feed> {
     Ok(Feed { value: value * factor, mode: FeedMode::InverseTime, ..feed })
 }
 
-/// The feed of an arc, or of a part of one.
+/// Settles the feed of an arc, or of a part of one, with what is to be warned of.
 ///
 /// # Errors
 /// As a line in inverse time.
-pub fn of_arc(post: &mut Post, arc: &PlaneArc) -> Result<Option<Feed>> {
+pub fn settle_of_arc(post: &mut Post, arc: &PlaneArc) -> Result<Option<Feed>> {
     let Some(feed) = post.path.feed else { return Ok(None) };
-    let mut feed = at_the_edge(post, feed, arc);
+    let mut feed = correct_at_the_edge(post, feed, arc);
     if !apply(post) {
         return Ok(Some(feed));
     }
@@ -270,7 +270,7 @@ pub fn of_arc(post: &mut Post, arc: &PlaneArc) -> Result<Option<Feed>> {
     let rise = (arc.to[along] - arc.from[along]).abs();
     let length = libm::hypot(arc.sweep.to_radians() * arc.radius, rise);
     let shares = [1, 2].map(|axis| if axis == along { (rise / length).min(1.0) } else { 1.0 });
-    feed = within_shares(post, feed, shares);
+    feed = limit_shares(post, feed, shares);
     let chord = || {
         let ways = [0, 1, 2].map(|axis| arc.to[axis] - arc.from[axis]);
         ways.map(|way| way * way).iter().sum::<f64>().sqrt()
@@ -278,12 +278,12 @@ pub fn of_arc(post: &mut Post, arc: &PlaneArc) -> Result<Option<Feed>> {
     let by_chord =
         post.control.commons.read(loc::FEED_INVERSE_LENGTH) == FeedInverseLength::LengthOfTheChord;
     let length = if by_chord { chord() } else { length };
-    in_force(post, feed, Some(length)).map(Some)
+    put_in_force(post, feed, Some(length)).map(Some)
 }
 
 /// The feed that an arc is cut with where the center of the cutter goes on another radius
 /// (INTCOM 1859).
-fn at_the_edge(post: &mut Post, feed: Feed, arc: &PlaneArc) -> Feed {
+fn correct_at_the_edge(post: &mut Post, feed: Feed, arc: &PlaneArc) -> Feed {
     let side = match post.control.state.get(modal::CUTTER_COMP) {
         Some(Compensation::Left) => arc.counterclockwise,
         Some(Compensation::Right) => !arc.counterclockwise,
@@ -342,9 +342,10 @@ mod tests {
         ) {
             let [y, z] = most;
             let mut post = post(&[("feed.upm_max_y", y), ("feed.upm_max_z", z)]);
-            let feed = Feed { value, mode: FeedMode::PerMinute, cause: Cause::default() };
+            let mode = FeedMode::PerMinute;
+            let feed = Feed { value, asked: value, mode, cause: Cause::default() };
             let length = way.iter().map(|way| way * way).sum::<f64>().sqrt();
-            let found = within_axes(&mut post, feed, way.map(Some), Some(length)).value;
+            let found = limit_to_axes(&mut post, feed, way.map(Some), Some(length)).value;
             let shares = [way[1].abs() / length, way[2].abs() / length];
             let rest = shares.iter().zip(most).map(|(share, most)| most - found * share);
             let rest = rest.fold(f64::INFINITY, f64::min);

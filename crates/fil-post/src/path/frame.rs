@@ -387,6 +387,9 @@ pub fn end(control: &mut Control) -> Result<()> {
 /// # Errors
 /// Functions that would change the frame.
 pub(super) fn before(control: &mut Control, operation: &Operation) -> Result<()> {
+    if !control.tables.frame_output {
+        return Ok(());
+    }
     match operation {
         Operation::MachinePosition(_) | Operation::WorkOffset(_) | Operation::End(_) => {
             end(control)

@@ -20,7 +20,9 @@ const OUT_FIRST: &str = "Bring the tool out by RAPID and GOTO before it, or turn
 /// As [`go_up_to`].
 pub(super) fn go_up(post: &mut Post, operation: &Operation) -> Result<()> {
     match operation {
-        Operation::MachinePosition([_, _, Some(level)]) => go_up_to(post, *level),
+        Operation::MachinePosition([_, _, Some(level)]) if post.control.tables.frame_output => {
+            go_up_to(post, *level)
+        }
         _ => Ok(()),
     }
 }

@@ -82,7 +82,7 @@ pub(super) fn go(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
         },
         MotionKind::Feed => {
             match rotary::turned(before, post.path.rotary) {
-                Some(before) if !rotary::begins_anywhere(post)? => {
+                Some(before) if !rotary::warn_where_lost(post)? => {
                     return turning::feed(post, before, &motion, target);
                 }
                 Some(before) => turning::from_elsewhere(post, before, &motion)?,

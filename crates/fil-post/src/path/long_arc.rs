@@ -82,7 +82,7 @@ fn write(post: &mut Post, mut rest: Rest) -> Result<()> {
 fn write_parts(post: &mut Post, parts: &mut Parts) -> Result<bool> {
     for _ in 0..PIECE {
         let Some(part) = parts.next(post)? else { return Ok(false) };
-        let feed = feed_rules::of_arc(post, &part)?;
+        let feed = feed_rules::settle_of_arc(post, &part)?;
         family::arc(&mut post.control, &part, feed.as_ref())?;
     }
     Ok(!parts.over)

@@ -152,10 +152,10 @@ fn refuse_travel_of_c(control: &Control, code: PostCode) -> Result<()> {
 }
 
 /// A feed in a plane of X and C, or around a cylinder, at which Z goes no faster than it may.
-fn within_axes(post: &mut Post, feed: Feed, to: &Position) -> Feed {
+fn limit_to_axes(post: &mut Post, feed: Feed, to: &Position) -> Feed {
     let way = [0, 1, 2].map(|number| post.control.stands(number).map(|at| to[number] - at));
     let length = way.iter().try_fold(0.0, |sum, way| way.map(|way| sum + way * way));
-    feed_rules::within_axes(post, feed, way, length.map(f64::sqrt))
+    feed_rules::limit_to_axes(post, feed, way, length.map(f64::sqrt))
 }
 
 /// The positions of the axes for a live tool: C rounded as the tape has it, so that X, Y
@@ -317,6 +317,12 @@ pub(super) fn turning_feed(
 /// # Errors
 /// Threads, functions that controls take in different ways, a feed a turn.
 pub(super) fn before(post: &mut Post, operation: &Operation) -> Result<()> {
+    if post.control.tables.mill_turn.is_some() {
+        refuse_modes_of_others(&post.control, operation)?;
+    }
+    if !post.control.tables.mills() {
+        return Ok(());
+    }
     match operation {
         Operation::Thread(_) => PostCode::MillTurn.err("a thread by a live tool"),
         Operation::Hole(_) => {
@@ -372,7 +378,7 @@ fn changes_plane(control: &Control, operation: &Operation) -> bool {
 ///
 /// # Errors
 /// A text, POSTN, PREFUN or AUXFUN with one of them.
-pub(super) fn refuse_modes_of_others(control: &Control, operation: &Operation) -> Result<()> {
+fn refuse_modes_of_others(control: &Control, operation: &Operation) -> Result<()> {
     if matches!(operation, Operation::Turn(..)) {
         return PostCode::MillTurn
             .err("ROTABL: C turns with the points and tool axes of live tools");

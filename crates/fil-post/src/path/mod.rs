@@ -92,33 +92,40 @@ pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
     }
 }
 
+/// What is asked and done before an operation that is no motion of the path.
+type Before = fn(&mut Post, &Operation) -> Result<()>;
+
+/// In this order: nothing comes between a thread and its points; tool-tip control or a tilted frame
+/// ends, out of which the tool goes up along itself first; then a mill-turn machine leaves its planes
+/// of lengths; what an author's function may not change is what is in force then.
+const BEFORE: [Before; 7] = [
+    |post, _| thread::refuse_awaited(post),
+    tip_control::before,
+    frame_end::go_up,
+    |post, operation| frame::before(&mut post.control, operation),
+    mill_turn::before,
+    |post, operation| counted_spindle::refuse_choices_of_others(&post.control, operation),
+    |post, operation| length_plane::refuse_repeated(&post.control, operation),
+];
+
 fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
-    thread::refuse_awaited(post)?;
-    if post.control.tables.tip_output {
-        if matches!(operation, Operation::End(_)) {
-            // Tool-tip control ends for who leaves the blocks of OPSKIP out, too.
-            post.control.skip_blocks(false)?;
-        }
-        tip_control::before(post, &operation)?;
-    }
-    if post.control.tables.frame_output {
-        frame_end::go_up(post, &operation)?;
-        frame::before(&mut post.control, &operation)?;
-    }
-    if post.control.tables.mill_turn.is_some() {
-        mill_turn::refuse_modes_of_others(&post.control, &operation)?;
-    }
-    if post.control.tables.mills() {
-        mill_turn::before(post, &operation)?;
-    }
-    counted_spindle::refuse_choices_of_others(&post.control, &operation)?;
-    length_plane::refuse_repeated(&post.control, &operation)?;
+    BEFORE.iter().try_for_each(|before| before(post, &operation))?;
     skip::note(post, &operation);
-    if !matches!(operation, Operation::Text(_) | Operation::Words(_)) {
-        let is_of_others = matches!(operation, Operation::Function(..));
-        write_other(post, operation)?;
-        return if is_of_others { compensation_side::refuse_of_others(post) } else { Ok(()) };
+    match operation {
+        Operation::Text(_) | Operation::Words(_) => write_of_others(post, operation),
+        Operation::Function(..) => {
+            write_other(post, operation)?;
+            compensation_side::refuse_of_others(post)
+        }
+        operation => write_other(post, operation),
     }
+}
+
+/// Writes a text or words of an author, and takes the machine to stand where they have brought it.
+///
+/// # Errors
+/// They turn what is clamped, past its travel or in a tilted frame.
+fn write_of_others(post: &mut Post, operation: Operation) -> Result<()> {
     let by_words = matches!(operation, Operation::Words(_));
     let stood = rotary::stands(&post.control);
     let is_clamped = post.control.state.may_be(modal::AXIS_CLAMP, true);

@@ -57,7 +57,7 @@ pub(super) fn out_of_cut(control: &mut Control, motion: &Motion, cause: Cause) -
     };
     let rises = match lie {
         None => false,
-        Some(Lie::Along { number, up }) => goes_first(control, motion, number, up)?,
+        Some(Lie::Along { number, up }) => decide_first(control, motion, number, up)?,
         // It goes up along the tool in any case.
         Some(Lie::Leaning) => true,
     };
@@ -134,7 +134,7 @@ fn in_parts(control: &mut Control, motion: &Motion, cause: Cause, warns: bool) -
         Lie::Leaning if rapid_lean::is_away(control) => (2, true),
         Lie::Leaning => return rapid_lean::rapid(control, motion, cause),
     };
-    let tool_first = motion.axes.has(number) && goes_first(control, motion, number, up)?;
+    let tool_first = motion.axes.has(number) && decide_first(control, motion, number, up)?;
     if warns {
         rapid_turn::warn_of_dip(control, motion, &order(number, tool_first).map(|(axes, _)| axes));
     }
@@ -149,7 +149,7 @@ fn in_parts(control: &mut Control, motion: &Motion, cause: Cause, warns: bool) -
 pub(super) fn turn_away(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
     match Lie::of(control, motion) {
         Lie::Along { number, up } => {
-            let tool_first = goes_first(control, motion, number, up)?;
+            let tool_first = decide_first(control, motion, number, up)?;
             let blocks = order(number, tool_first).map(|(axes, _)| axes);
             rapid_turn::warn_of_dip_when_out(control, motion, &blocks);
             split(control, motion, number, tool_first, cause)
@@ -228,21 +228,21 @@ fn split(
     Ok(())
 }
 
-/// True when Z goes before the other axes: up from where the tool stands.
+/// Decides whether Z goes before the other axes: up from where the tool stands.
 ///
 /// # Errors
-/// As [`goes_first`].
-pub(super) fn z_goes_first(control: &mut Control, motion: &Motion) -> Result<bool> {
-    goes_first(control, motion, 2, true)
+/// As [`decide_first`].
+pub(super) fn decide_z_first(control: &mut Control, motion: &Motion) -> Result<bool> {
+    decide_first(control, motion, 2, true)
 }
 
-/// True when the axis that the tool lies along goes before the others: up from where the tool
-/// stands, which is to higher numbers, or to lower ones.
+/// Decides whether the axis that the tool lies along goes before the others: up from where the tool
+/// stands, which is to higher numbers, or to lower ones. Warns where that hangs on a guess.
 ///
 /// # Errors
 /// No order is safe: the axis may stand on either side of the end, by the skip switch, or
 /// anywhere.
-fn goes_first(control: &mut Control, motion: &Motion, number: usize, up: bool) -> Result<bool> {
+fn decide_first(control: &mut Control, motion: &Motion, number: usize, up: bool) -> Result<bool> {
     if !control.repeat.ended.is_empty() {
         repeat::doubt_ended(control);
     }

@@ -157,7 +157,7 @@ fn by_way_of(
     let (end, end_axis) = rotary::transformed(post, target);
     let middle = Target { point: start + (target.point - start) * change.share, ..target };
     let (place, _) = rotary::transformed(post, middle);
-    let plan = Plan::of(post, place, change, by_macro)?;
+    let plan = Plan::settle(post, place, change, by_macro)?;
     if change.share > NO_PART {
         let position = rotary::words_at(post, place, change.from)?;
         let motion = Motion::new(position, AxisSet::ALL, 0);
@@ -254,10 +254,12 @@ pub(super) fn has_macro(post: &Post) -> bool {
 }
 
 impl Plan {
+    /// The way out and back of the settings, and of the macro _REPOS where it is asked.
+    ///
     /// # Errors
     /// No retract is known; no feed; what the macro refuses, and a way shorter than that of the
     /// settings.
-    pub fn of(
+    pub fn settle(
         post: &mut Post,
         place: Point3<f64>,
         change: &Change,

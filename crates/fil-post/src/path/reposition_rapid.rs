@@ -87,7 +87,7 @@ fn out_and_to(
     post.control.require(Act::Reposition)?;
     let (from, _) = rotary::transformed(post, start);
     let (to, next_axis) = rotary::transformed(post, target);
-    let plan = Plan::of(post, from, change, by_macro)?;
+    let plan = Plan::settle(post, from, change, by_macro)?;
     let next = next_axis.normalize();
     let own = post.control.tables.chain().axis_at(change.from);
     let out = if plan.ways.along_next { next } else { own };

@@ -251,30 +251,26 @@ pub(super) fn refuse_compensated(post: &Post, before: Option<[f64; 2]>) -> Resul
     post.control.require(Act::RotaryMove)
 }
 
-/// True where a motion begins where nobody knows the axes to stand, as behind a tool change or
-/// another work offset: it can be neither divided nor timed, and goes straight to its end at the
-/// plain feed, with a warning.
+/// Warns of a motion that begins where nobody knows the axes to stand, as behind a tool change or
+/// another work offset, and says whether it does: it can be neither divided nor timed, and goes
+/// straight to its end at the plain feed.
 ///
 /// # Errors
 /// The skip switch decides where it begins.
 #[inline]
-pub(super) fn begins_anywhere(post: &mut Post) -> Result<bool> {
+pub(super) fn warn_where_lost(post: &mut Post) -> Result<bool> {
     let in_doubt = post.path.last.since == Since::ToolChange
         || post.path.point.is_none()
         || post.control.state.has_doubts();
-    if in_doubt { is_lost(post) } else { Ok(false) }
+    if in_doubt { warn_if_lost(post) } else { Ok(false) }
 }
 
-/// Warns of such a motion, where the axes stand nobody knows where.
+/// The same of a motion that may begin there, whether anything has left a doubt or not.
 ///
 /// # Errors
-/// As [`begins_anywhere`].
-pub(super) fn warn_of_lost(post: &mut Post) -> Result<()> {
-    is_lost(post).map(|_| ())
-}
-
+/// As [`warn_where_lost`].
 #[cold]
-fn is_lost(post: &mut Post) -> Result<bool> {
+pub(super) fn warn_if_lost(post: &mut Post) -> Result<bool> {
     let tables = &post.control.tables;
     if tables.mills() || post.writes_tip() {
         return Ok(false);

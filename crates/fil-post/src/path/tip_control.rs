@@ -410,6 +410,13 @@ pub(super) fn settle_level(post: &mut Post) -> Result<()> {
 /// # Errors
 /// Cutter compensation, and functions that controls take in different ways under it.
 pub(super) fn before(post: &mut Post, operation: &Operation) -> Result<()> {
+    if !post.control.tables.tip_output {
+        return Ok(());
+    }
+    if matches!(operation, Operation::End(_)) {
+        // It ends for who leaves the blocks of OPSKIP out, too.
+        post.control.skip_blocks(false)?;
+    }
     if let Operation::MachinePosition([_, _, Some(_)]) = operation {
         settle_level(post)?;
     }

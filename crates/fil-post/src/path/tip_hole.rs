@@ -5,7 +5,7 @@ use fil_machine::locations as loc;
 use nalgebra::{Point3, Vector3};
 
 use super::cycle::{AboveHoles, Cycle, CycleFeed, CycleKind};
-use super::expand::{WayOut, way_out};
+use super::expand::{WayOut, settle_way_out};
 use super::{Since, linear, tip_control};
 use crate::control::family;
 use crate::control::word_address::spindle;
@@ -172,7 +172,7 @@ impl Moves<'_> {
             family::dwell(&mut self.post.control, Dwell::Seconds(self.cycle.dwell))?;
             self.post.control.block.cause = self.cycle.cause;
         }
-        match way_out(&mut self.post.control, self.cycle)? {
+        match settle_way_out(&mut self.post.control, self.cycle)? {
             WayOut::Rapid => self.rapid(rest),
             WayOut::Feed => {
                 self.feed(clear)?;

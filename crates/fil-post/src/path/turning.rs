@@ -85,7 +85,7 @@ pub(super) fn from_unsaid(post: &mut Post, motion: &Motion) -> Result<()> {
     let now = [motion.position[3], motion.position[4]];
     let Some(stands) = unsaid(post).filter(|stands| apart(*stands, now)) else { return Ok(()) };
     may_turn(post, stands, motion)?;
-    rotary::warn_of_lost(post)
+    rotary::warn_if_lost(post).map(drop)
 }
 
 /// Moves at feed to where no rotary axis turns past a limit, whether one turns or not.

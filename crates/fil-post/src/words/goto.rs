@@ -85,7 +85,7 @@ pub fn drills(post: &Post) -> bool {
 /// All that the motion refuses.
 #[inline]
 pub fn straight(post: &mut Post, target: Target) -> Result<()> {
-    match kind_of_motion(post) {
+    match take_kind_of_motion(post) {
         MotionKind::Thread(lead) => thread::point(post, target, lead),
         // The most frequent operation is carried out without being made: its copy would have
         // to wait for the target, which was written a moment ago.
@@ -131,7 +131,7 @@ fn warn_behind_stop(post: &mut Post) {
 
 /// Rapid after RAPID, a pass of a thread in a thread, else at feed.
 #[inline]
-pub fn kind_of_motion(post: &mut Post) -> MotionKind {
+pub fn take_kind_of_motion(post: &mut Post) -> MotionKind {
     match (post.path.rapid.take(), post.path.thread.passes.map(|passes| passes.lead)) {
         (Some(cause), _) => MotionKind::Rapid(cause),
         (None, Some(lead)) => MotionKind::Thread(lead),

@@ -16,7 +16,7 @@ proptest! {
     /// An arc turns by the right-hand rule from its start to its end, and its whole turns on top.
     #[test]
     fn the_sweep_is_the_angle_from_start_to_end(
-        radius in 0.5..500.0, start in -180.0..180.0, angle in 0.1..359.9, turns in 0u32..5,
+        radius in 0.5..500.0, start in -180.0..180.0, angle in 0.1..359.9_f64, turns in 0u32..5,
     ) {
         let ends = [at(radius, start), at(radius, start + angle)];
         let found = sweep(&about_z(f64::from(turns)), ends);
@@ -50,5 +50,5 @@ fn radii_that_disagree_are_refused() {
     let ends = [at(10.0, 0.0), at(10.0005, 90.0)];
     assert_eq!(check_radii(&about_z(0.0), ends).unwrap(), 10.0);
     let ends = [at(10.0, 0.0), at(10.01, 90.0)];
-    assert_eq!(check_radii(&about_z(0.0), ends).unwrap_err().code, PostCode::ArcRadius.code());
+    assert_eq!(check_radii(&about_z(0.0), ends).unwrap_err().code.name(), "E0504");
 }

@@ -80,7 +80,7 @@ fn go(post: &mut Post, to: Position, target: Target) -> Result<()> {
     };
     let around = radius * to[3].to_radians();
     let position = [to[0], around, to[2], 0.0, 0.0];
-    let feed = feed.map(|feed| super::within_axes(post, feed, &position));
+    let feed = feed.map(|feed| super::limit_to_axes(post, feed, &position));
     let control = &mut post.control;
     let motion = Motion::new(position, AxisSet::LINEAR, word);
     family::feed(control, &motion, feed.as_ref())?;

@@ -97,7 +97,7 @@ pub(super) fn begin(
         Place::At(_) | Place::Unsaid | Place::Clear => {
             control.stands(2).is_some_and(|here| point.z > here)
         }
-        _ => rapid::z_goes_first(control, &at(AxisSet::ALL))?,
+        _ => rapid::decide_z_first(control, &at(AxisSet::ALL))?,
     };
     if lifts {
         rapid::rapid(control, &at(AxisSet::Z), cause)?;
@@ -195,7 +195,7 @@ fn arrive(post: &mut Post, target: Target) {
 /// A motion at feed, at which Z goes no faster than it may.
 fn cut(post: &mut Post, to: [f64; 3], feed: &Feed, word: u16) -> Result<()> {
     let [x, y, z] = to;
-    let feed = super::within_axes(post, *feed, &[x, y, z, 0.0, 0.0]);
+    let feed = super::limit_to_axes(post, *feed, &[x, y, z, 0.0, 0.0]);
     go(post, to, AxisSet::LINEAR, &feed, word)
 }
 
