@@ -66,6 +66,7 @@ impl Control {
     /// # Errors
     /// The doubt, where its level is deny, and one of a code that is always an error.
     #[cold]
+    #[expect(clippy::boxed_local, reason = "diagnostics are made and returned boxed")]
     pub(crate) fn doubt(&mut self, by: Source, diag: Box<Diag>) -> Result<()> {
         let level = level_of(&self.warnings.levels, diag.code, by);
         let mut diag = *diag;
