@@ -1,7 +1,7 @@
 //! Doubts: what may not be what the user means, and at which level it is reported.
 //!
-//! [`DOUBTS`] is the one table of default levels. Every doubt of the post goes through
-//! [`Control::doubt`].
+//! `DOUBTS` is the one table of default levels. Every doubt of the post goes through
+//! `Control::doubt`.
 
 use fil_diag::{Code, CodeKind, Diag, Level, LevelProfile, Levels, Result, Severity};
 
