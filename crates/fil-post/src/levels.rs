@@ -3,7 +3,7 @@
 //! `DOUBTS` is the one table of default levels. Every doubt of the post goes through
 //! `Control::doubt`.
 
-use fil_diag::{Code, CodeKind, Diag, Level, LevelProfile, Levels, Result, Severity};
+use fil_diag::{Code, Diag, Level, LevelProfile, Levels, Result, Severity};
 
 use crate::control::Control;
 use crate::control_state::modal::Source;
@@ -69,10 +69,6 @@ impl Control {
     #[expect(clippy::boxed_local, reason = "diagnostics are made and returned boxed")]
     pub(crate) fn doubt(&mut self, by: Source, diag: Box<Diag>) -> Result<()> {
         let level = level_of(&self.warnings.levels, diag.code, by);
-        let mut diag = *diag;
-        if diag.code.kind == CodeKind::Doubt {
-            diag.notes.push(how_to_allow(diag.code));
-        }
         match diag.at_level(level) {
             None => Ok(()),
             Some(diag) if diag.severity == Severity::Error => Err(Box::new(diag)),
@@ -84,16 +80,10 @@ impl Control {
     }
 }
 
-/// The line that accepts a doubt.
-fn how_to_allow(code: &Code) -> String {
-    let name = code.name();
-    format!(
-        "if it is right as it is: --allow {name}, or [levels] {name} = \"allow\" in machine.toml"
-    )
-}
-
 #[cfg(test)]
 mod tests {
+    use fil_diag::CodeKind;
+
     use super::*;
 
     #[test]
