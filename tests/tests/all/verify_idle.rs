@@ -3,8 +3,9 @@
 /// Programs with axis words whose last digit a rounding may leave open: points between the
 /// ends of lines that another post has divided, points of arcs that are lines, values half
 /// way between two; poles of helices and arcs of Klartext.
-pub const ROUNDED: [&str; 17] = [
+pub const ROUNDED: [&str; 18] = [
     "corpus/klartext/helices",
+    "words/circle-full-behind-a-helix-in-klartext",
     // A way around a cylinder, and a direction that CL files round.
     "corpus/lathe/sinumerik-mill-turn/cylinder-groove",
     "corpus/lathe/sinumerik-mill-turn/grooves-on-two-cylinders",
