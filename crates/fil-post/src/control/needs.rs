@@ -145,7 +145,7 @@ impl Act {
     ];
 
     /// The table.
-    #[inline]
+    #[inline(always)]
     pub const fn needs(self) -> &'static [Need] {
         match self {
             Act::Block => &[Need(Subject::ProgramEnd, PostCode::AfterEnd)],
@@ -255,7 +255,7 @@ impl Control {
     ///
     /// # Errors
     /// As its row says.
-    #[inline]
+    #[inline(always)]
     pub fn require(&self, act: Act) -> Result<()> {
         self.require_within(act, Part::default())
     }
@@ -264,16 +264,19 @@ impl Control {
     ///
     /// # Errors
     /// As its row says.
-    #[inline]
+    // The operation is a constant where it asks, and so the row is one comparison or two.
+    #[inline(always)]
     pub fn require_within(&self, act: Act, part: Part) -> Result<()> {
-        match act.needs().iter().find(|need| !self.has(need.0, part)) {
-            Some(need) => refuse(act, *need),
-            None => Ok(()),
+        for need in act.needs() {
+            if !self.has(need.0, part) {
+                return refuse(act, *need);
+            }
         }
+        Ok(())
     }
 
     /// True if a subject is as operations need it.
-    #[inline]
+    #[inline(always)]
     fn has(&self, subject: Subject, part: Part) -> bool {
         match subject {
             Subject::CompensationAsked => !self.is_compensated(),
@@ -309,7 +312,7 @@ fn refuse(act: Act, Need(subject, code): Need) -> Result<()> {
 /// # Errors
 /// No FEDRAT came before it.
 #[inline]
-pub fn feed(feed: Option<Feed>) -> Result<Feed> {
+pub fn feed(feed: Option<&Feed>) -> Result<&Feed> {
     feed.ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"))
 }
 

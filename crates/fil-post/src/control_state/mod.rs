@@ -202,6 +202,7 @@ impl ControlState {
     }
 
     /// Cutter compensation is on.
+    #[inline]
     pub fn compensates(&self) -> bool {
         matches!(self.get(CUTTER_COMP), Some(Compensation::Left | Compensation::Right))
     }

@@ -329,7 +329,7 @@ fn ways_of(commons: &Commons) -> Ways {
 
 /// A feed of the settings or of the macro: absent is the present one, 0 is rapid.
 fn feed_of(post: &Post, value: Option<f64>) -> Result<Option<Feed>> {
-    let present = needs::feed(post.path.feed)?;
+    let present = *needs::feed(post.path.feed.as_ref())?;
     Ok(match value {
         None => Some(present),
         Some(value) if value > 0.0 => Some(Feed { value, mode: FeedMode::PerMinute, ..present }),

@@ -51,7 +51,7 @@ impl<'a> TurningFeed<'a> {
     pub(super) fn of(post: &'a Post) -> Result<Self> {
         let tables = &post.control.tables;
         let rules = &tables.rotary_feed;
-        let given = needs::feed(post.path.feed)?;
+        let given = needs::feed(post.path.feed.as_ref())?;
         let form = if post.path.inverse_time { RotaryFeed::InverseTime } else { rules.form };
         let rate = match given.mode {
             FeedMode::PerRevolution if form != RotaryFeed::AsFedratSays => {
@@ -59,7 +59,7 @@ impl<'a> TurningFeed<'a> {
             }
             _ => given.value / rules.per_minute_factor,
         };
-        Ok(TurningFeed { rules, form, given, rate })
+        Ok(TurningFeed { rules, form, given: *given, rate })
     }
 
     /// How many parts a way of the tip needs at least, so that F is not too small for

@@ -186,7 +186,7 @@ pub fn ready(control: &mut Control) -> Result<()> {
 
 /// Adds F where the control does not have it.
 fn feed_word(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
-    let feed = needs::feed(feed.copied())?;
+    let feed = *needs::feed(feed)?;
     let value = match feed.mode {
         FeedMode::PerMinute => spelled(control, feed.value),
         FeedMode::PerRevolution if control.is_metric() => feed.value,

@@ -209,7 +209,7 @@ fn go(post: &mut Post, [x, y, z]: [f64; 3], axes: AxisSet, feed: &Feed, word: u1
 /// The feed of a motion: that of the machine for rapid ones.
 fn feed_of(post: &Post, kind: MotionKind) -> Result<Feed> {
     let MotionKind::Rapid(cause) = kind else {
-        return needs::feed(post.path.feed);
+        return needs::feed(post.path.feed.as_ref()).copied();
     };
     let mm = post.control.require_unit()?.in_mm();
     let value = post.control.commons.dbl_opt(loc::MILL_TURN_POLAR_RAPID).filter(|feed| *feed > 0.0);

@@ -19,7 +19,7 @@ use crate::operation::Feed;
 /// No feed was given, or it does not fit its address.
 #[inline]
 pub fn feed_words(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
-    let feed = &needs::feed(feed.copied())?;
+    let feed = needs::feed(feed)?;
     feed_mode(control, feed)?;
     control.modal_feed(F, feed)
 }
