@@ -15,22 +15,22 @@ const FIXTURE: &str = "a work offset";
 /// Titles and kinds of functions that may have one number: a control tells them apart by the other
 /// words of the block, or they are one to it.
 const MAY_SHARE: &[(&str, &str)] = &[
-    ("a preset of the axes", "the limit of the speed"),
+    ("a preset of the axes", "the spindle speed limit"),
     ("a preset of the axes", "the cycle of a thread"),
     ("deep drilling", "chip breaking"),
     ("a hole", "a hole by a live tool"),
     ("deep drilling", "a hole by a live tool"),
     ("chip breaking", "a hole by a live tool"),
-    ("the spindle clockwise", "the usual way of the spindle"),
-    ("the spindle counterclockwise", "the usual way of the spindle"),
+    ("the spindle clockwise", "the default direction of the spindle"),
+    ("the spindle counterclockwise", "the default direction of the spindle"),
     // M5 of a SINUMERIK makes the axis C the spindle again.
-    ("the spindle's stop", "the way back to turning"),
-    ("the spindle", "the way back to turning"),
+    ("the spindle's stop", "the switch to turning"),
+    ("the spindle", "the switch to turning"),
     // M99 ends a program as well.
     ("a call of a program", "the end of the program"),
     ("a call of a program", "the end with rewind"),
-    ("the lengths of tools by G53 to G59", "the length of the tool"),
-    ("the lengths of tools by G53 to G59", "the end of the tool's length"),
+    ("tool length offset by G53 to G59", "the tool length offset"),
+    ("tool length offset by G53 to G59", "the cancel of the tool length offset"),
 ];
 
 /// A number and what it stands for. Sorted by number, so that those of one stand together: scripts
