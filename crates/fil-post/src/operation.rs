@@ -12,7 +12,7 @@ use fil_machine::{FunctionCode, Letter};
 use nalgebra::{Point3, Vector3};
 
 use crate::cause::Cause;
-use crate::control_state::Compensation;
+use crate::control_state::{Compensation, ForeignBlock};
 
 /// A CL point with its tool axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -357,8 +357,8 @@ pub enum Operation {
     Words(Vec<(Letter, f64, Cause)>),
     /// Words for each motion from now on; none ends them.
     Repeat(Vec<(Letter, f64, Cause)>),
-    /// A text as it is.
-    Text(String),
+    /// Blocks of an author, as they are.
+    Text(Vec<ForeignBlock>),
     /// A message to the operator.
     Message(String),
     /// A stop.

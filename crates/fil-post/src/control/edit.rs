@@ -3,14 +3,14 @@
 
 use fil_diag::Result;
 use fil_machine::Letter;
-use fil_machine::letters::{self, G, M, N};
+use fil_machine::letters::{self, G, M};
 use fil_machine::locations::ControlFamily;
 
 use super::left_out::{Edit, Maker, Word};
 use super::{Control, sinumerik, speed_of_others, texts};
 use crate::cause::Cause;
 use crate::control::needs::Act;
-use crate::control_state::{TextWords, text, text_words};
+use crate::control_state::ForeignBlock;
 use crate::errors::PostCode;
 
 /// A word with its cause.
@@ -146,9 +146,13 @@ impl Control {
         if !before.contains('%') {
             texts::check(&after)?;
         }
-        let of = |line: &str| self.words_of_line(line);
-        let (made, left) = (of(&before), of(behind_new_skip_mark(&before, &after)));
-        let edit = Edit { before: &made, after: &left };
+        let [made, left] = [&before, &after].map(|line| self.read(line.clone()));
+        let [of_made, mut of_left] = [&made, &left].map(|block| self.readable_words(block));
+        if left.skipped && !made.skipped {
+            // Nothing is left for certain.
+            of_left.clear();
+        }
+        let edit = Edit { before: &of_made, after: &of_left };
         if maker == Maker::Post {
             self.refuse_left_out(edit)?;
             self.refuse_left_out_again(edit)?;
@@ -158,11 +162,11 @@ impl Control {
         let brings = self.brings_functions(edit);
         match maker {
             Maker::Post => {
-                self.learn_edited(&before, &after, maker);
+                self.learn_edited(&made, &left, maker);
                 self.miss_left_out(edit);
             }
-            Maker::Words => self.learn_edited(&before, &after, maker),
-            Maker::Text => self.learn_line(&after),
+            Maker::Words => self.learn_edited(&made, &left, maker),
+            Maker::Text => self.learn(&left),
         }
         if maker != Maker::Post || brings {
             self.refuse_changes(known)?;
@@ -170,23 +174,11 @@ impl Control {
         Ok(true)
     }
 
-    /// The words of a line as far as they can be read, its number and comments left out.
-    fn words_of_line(&self, line: &str) -> Vec<Word> {
+    /// The words of a line as far as they can be read.
+    fn readable_words(&self, block: &ForeignBlock) -> Vec<Word> {
         match self.tables.family {
-            ControlFamily::Sinumerik => sinumerik::reader::readable_words(line),
-            _ => text::readable_words(line),
-        }
-    }
-
-    /// Learns from a line of others.
-    fn learn_line(&mut self, line: &str) {
-        match self.tables.family {
-            ControlFamily::Sinumerik => sinumerik::reader::learn(self, line),
-            _ => self.state.learn_text(line, &self.codes, self.unit),
-        }
-        if let Some(read) = text_words(line) {
-            let skipped = read.skipped || self.state.may_be_skipped();
-            speed_of_others::learn(self, &read.words, skipped);
+            ControlFamily::Sinumerik => sinumerik::reader::readable_words(block),
+            _ => block.words.clone(),
         }
     }
 
@@ -207,26 +199,23 @@ impl Control {
 
     /// Learns from a line of words that was edited. Words that are the same in both are on the
     /// tape as they were made; what else the line says is in doubt.
-    fn learn_edited(&mut self, before: &str, after: &str, maker: Maker) {
-        if self.tables.family == ControlFamily::Sinumerik {
-            return self.learn_line(after);
+    fn learn_edited(&mut self, before: &ForeignBlock, after: &ForeignBlock, maker: Maker) {
+        let is_read = before.unread.is_none() && after.unread.is_none() && !after.skipped;
+        if self.tables.family == ControlFamily::Sinumerik || !is_read {
+            return self.learn(after);
         }
-        let (old, new) = match (text_words(before), text_words(after)) {
-            (Some(old), Some(new)) if !new.skipped => (without_number(old), without_number(new)),
-            _ => return self.learn_line(after),
-        };
-        let edit = Edit { before: &old, after: &new };
+        let (old, new) = (&before.words, &after.words);
+        let edit = Edit { before: old, after: new };
         match maker {
             Maker::Post => self.learn_left(edit),
-            _ => self.state.learn_words(&new, &self.codes),
+            _ => self.state.learn_words(new, &self.codes),
         }
         if maker != Maker::Post || self.changes_speed(edit) {
-            let skipped = self.state.may_be_skipped();
-            speed_of_others::learn(self, &new, skipped);
+            speed_of_others::learn(self, new, true);
         }
         let differs = |word: &(Letter, f64), others: &[(Letter, f64)]| !others.contains(word);
-        let changed = old.iter().filter(|word| differs(word, &new));
-        let changed = changed.chain(new.iter().filter(|word| differs(word, &old)));
+        let changed = old.iter().filter(|word| differs(word, new));
+        let changed = changed.chain(new.iter().filter(|word| differs(word, old)));
         for (letter, _) in changed.filter(|(letter, _)| !matches!(*letter, G | M)) {
             self.learn_edited_word(*letter, new.iter().rev().find(|(other, _)| other == letter));
         }
@@ -251,14 +240,4 @@ impl Control {
 /// Words without their causes.
 pub(super) fn plain(words: &[CausedWord]) -> Vec<Word> {
     words.iter().map(|(letter, value, _)| (*letter, *value)).collect()
-}
-
-fn without_number(read: TextWords) -> Vec<Word> {
-    read.words.into_iter().filter(|(letter, _)| *letter != N).collect()
-}
-
-/// What is left of a line for certain: nothing of one that may be skipped, and could not before.
-fn behind_new_skip_mark<'l>(before: &str, after: &'l str) -> &'l str {
-    let may_be_skipped = |line: &str| line.trim_start().starts_with('/');
-    if may_be_skipped(after) && !may_be_skipped(before) { "" } else { after }
 }

@@ -14,7 +14,7 @@ use fil_machine::{FunctionCode, Letter};
 use super::Control;
 use super::word_address::{compensation, modes};
 use crate::cause::Cause;
-use crate::control_state::{Meaning, modal, text};
+use crate::control_state::{Meaning, functions, modal};
 use crate::errors::PostCode;
 use crate::operation::Operation;
 
@@ -132,7 +132,7 @@ pub fn before_length(control: &mut Control) -> Result<()> {
     take(control, of_length(control))
 }
 
-/// The same before a text or words that take up a length and say no plane.
+/// The same before the words of others that take up a length and say no plane.
 ///
 /// # Errors
 /// As [`modes::plane_of_its_own`].
@@ -140,28 +140,12 @@ pub fn before_others(control: &mut Control, words: &[(Letter, f64)]) -> Result<(
     if !of_length(control).is_some_and(|plane| may_be_another(control, plane)) {
         return Ok(());
     }
-    let codes = || {
-        words
-            .iter()
-            .filter(|(letter, _)| *letter == G)
-            .filter_map(|(_, value)| FunctionCode::of_value(*value))
-    };
+    let codes = || functions(words);
     let says_plane = codes().any(|code| matches!(control.meaning(code), Meaning::Plane(_)));
     if !says_plane && codes().any(|code| control.calls_length(code)) {
         return before_length(control);
     }
     Ok(())
-}
-
-/// The same before a text; one that can't be read may do anything.
-///
-/// # Errors
-/// As [`modes::plane_of_its_own`].
-pub fn before_text(control: &mut Control, text: &str) -> Result<()> {
-    match text::read(text) {
-        Some(read) => before_others(control, &read.words),
-        None => Ok(()),
-    }
 }
 
 /// The plane in which a mill whose tool lies along Z takes up lengths by a function; `None` for other

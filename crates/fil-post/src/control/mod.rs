@@ -11,6 +11,7 @@ mod characters;
 mod departure;
 mod edit;
 pub mod family;
+mod foreign;
 pub(crate) mod full_turn;
 pub mod heads;
 pub mod klartext;

@@ -6,12 +6,14 @@ use fil_machine::letters::S;
 use fil_machine::locations as loc;
 
 use super::Control;
-use crate::control_state::{Meaning, Source, modal, text};
+use crate::control_state::{Meaning, Source, functions, modal};
 use crate::operation::SpindleSpeed;
 
-/// Learns from the words of a block, behind what its functions do. `skipped`: it may be left out.
-pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: bool) {
-    let codes = || text::functions(words);
+/// Learns from the words of a block, behind what its functions do. `is_certain`: it is run, and
+/// nothing else stands in it.
+pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], is_certain: bool) {
+    let is_certain = is_certain && !control.state.may_be_skipped();
+    let codes = || functions(words);
     let named = |at| {
         let code = control.code_if_any(at);
         code.is_some_and(|code| codes().any(|said| said == code))
@@ -20,7 +22,7 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
     if named(loc::SPINDLE_MAX_CODE) {
         control.state.set_if_known(
             modal::SPEED_LIMIT,
-            said.filter(|_| !skipped).or(control.state.get(modal::SPEED_LIMIT)),
+            said.filter(|_| is_certain).or(control.state.get(modal::SPEED_LIMIT)),
             Source::Author,
         );
         return;
@@ -38,7 +40,7 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
     }
     let by_surface = control.state.is(modal::SURFACE_SPEED, true);
     let is_open = control.state.surface_speed_is_open();
-    let is_speed = !skipped && !is_open && control.commons.read(loc::SPINDLE_DIRECT_RPM);
+    let is_speed = is_certain && !is_open && control.commons.read(loc::SPINDLE_DIRECT_RPM);
     control.spindle.speed = match said.filter(|_| is_speed) {
         None => None,
         Some(value) if by_surface && control.is_metric() => Some(SpindleSpeed::Meters(value)),

@@ -2,10 +2,10 @@
 //! made it.
 
 use fil_diag::Result;
+use fil_machine::Letter;
 use fil_machine::letters::{G, M};
 use fil_machine::locations::{self as loc, ControlFamily};
-use fil_machine::modes::{Plane, Unit};
-use fil_machine::{FunctionCode, Letter};
+use fil_machine::modes::Plane;
 
 use super::edit::plain;
 use super::left_out::{Edit, Maker};
@@ -16,18 +16,24 @@ use super::{
 };
 use crate::cause::Cause;
 use crate::control::needs::Act;
-use crate::control_state::{Place, Source, modal, text};
+use crate::control_state::modal::{self, Group, Value};
+use crate::control_state::{ForeignBlock, Place, Source};
 use crate::errors::PostCode;
 
 /// The function of Klartext that goes along the tool out of the part, under tool-tip control too.
 const RETRACT: &str = "M140";
 
-/// What the control knew before words or texts of others.
+/// Groups that positions under tool-tip control count in.
+const FRAME: [Group; 5] =
+    [Group::Plane, Group::Units, Group::WorkOffset, Group::WorkPlane, Group::Cycle];
+
+/// What the control knew before words or texts of others, which its groups alone do not say.
 #[derive(Clone, Copy, Debug)]
 pub struct BeforeOthers {
     compensated: bool,
     plane: Option<Plane>,
-    lengths_said: u32,
+    /// The length of the tool is taken off by the edge of none, on a SINUMERIK.
+    without_edge: bool,
     /// Where the rotary axes stand.
     rotary: [Option<f64>; 2],
     /// Under tool-tip control: what counts in it.
@@ -37,11 +43,7 @@ pub struct BeforeOthers {
 /// What positions under tool-tip control count in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
-    plane: Option<Plane>,
-    unit: Option<Unit>,
-    work_offset: Option<FunctionCode>,
-    tilted: Option<bool>,
-    in_cycle: Option<bool>,
+    groups: [Option<Value>; FRAME.len()],
     shifted: bool,
     /// A rotary axis or Z stands at a position of the machine.
     of_machine: bool,
@@ -125,11 +127,10 @@ impl Control {
             None => self.state.learn_words(&plain, &self.codes),
         }
         if self.tables.family == ControlFamily::Sinumerik {
-            sinumerik::reader::learn_words(self, words);
+            sinumerik::reader::learn_words(self, &plain);
         }
         if edit.is_none_or(|edit| self.changes_speed(edit)) {
-            let skipped = self.state.may_be_skipped();
-            speed_of_others::learn(self, &plain, skipped);
+            speed_of_others::learn(self, &plain, true);
         }
         self.follow_feed_mode();
         self.take_plane_back(&before);
@@ -140,13 +141,21 @@ impl Control {
         }
     }
 
-    /// Writes a text as a block; the control learns from it what it can read.
+    /// Writes a text of the machine as a block; the control learns from it what it can read.
     ///
     /// # Errors
     /// As [`Tape::line`](crate::tape::Tape::line); a character that must not reach the tape; a block after
     /// the end of the program.
     pub fn write_text(&mut self, text: &str, numbered: bool) -> Result<()> {
-        self.write_text_of(text, numbered, Maker::Text)
+        self.write_foreign(&self.read(text.to_string()), numbered)
+    }
+
+    /// The same for a block of an author that was read.
+    ///
+    /// # Errors
+    /// As [`Control::write_text`].
+    pub fn write_foreign(&mut self, block: &ForeignBlock, numbered: bool) -> Result<()> {
+        self.write_read(block, numbered, Maker::Text)
     }
 
     /// The same for a text that the post has made: what it says can't be left out.
@@ -154,23 +163,24 @@ impl Control {
     /// # Errors
     /// As [`Control::write_text`]; words that were edited out of it.
     pub fn write_own_text(&mut self, text: &str) -> Result<()> {
-        self.write_text_of(text, true, Maker::Post)
+        self.write_read(&self.read(text.to_string()), true, Maker::Post)
     }
 
-    fn write_text_of(&mut self, text: &str, numbered: bool, maker: Maker) -> Result<()> {
+    fn write_read(&mut self, block: &ForeignBlock, numbered: bool, maker: Maker) -> Result<()> {
+        let text = block.text.as_str();
         self.begin()?;
         if texts::begins_program(text) {
             self.state.program_begins();
         }
         self.require(Act::Block)?;
         modes::leave_plane_of_its_own(self)?;
-        length_plane::before_text(self, text)?;
+        length_plane::before_others(self, block.words())?;
         texts::check(text)?;
-        if let (Some(read), Maker::Text) = (text::read(text), maker) {
-            self.refuse_without_length(&read.words)?;
+        if maker == Maker::Text {
+            self.refuse_without_length(block.words())?;
         }
         if self.tables.family == ControlFamily::Sinumerik {
-            sinumerik::reader::refuse_other_diameters(self, text)?;
+            sinumerik::reader::refuse_other_diameters(self, block)?;
         }
         if self.tables.family != ControlFamily::WordAddress {
             family::refuse_brackets(text)?;
@@ -183,20 +193,10 @@ impl Control {
             return Ok(());
         }
         let mut before = self.before_others()?;
-        if self.tables.family == ControlFamily::Klartext && text.contains(RETRACT) {
+        if self.tables.family == ControlFamily::Klartext && block.named(&[RETRACT]).is_some() {
             before.frame = None;
         }
-        match self.tables.family {
-            ControlFamily::Klartext => klartext::reader::learn(self, text),
-            ControlFamily::Sinumerik => sinumerik::reader::learn(self, text),
-            ControlFamily::WordAddress => self.state.learn_text(text, &self.codes, self.unit),
-        }
-        if self.tables.family != ControlFamily::Klartext
-            && let Some(read) = text::read(text)
-        {
-            let skipped = read.skipped || self.state.may_be_skipped();
-            speed_of_others::learn(self, &read.words, skipped);
-        }
+        self.learn(block);
         self.follow_feed_mode();
         self.take_plane_back(&before);
         self.refuse_changes(before)
@@ -231,7 +231,7 @@ impl Control {
         Ok(BeforeOthers {
             compensated: self.is_compensated(),
             plane: self.state.get(modal::PLANE),
-            lengths_said: self.lengths_said(),
+            without_edge: self.sinumerik.edge() == Some(0),
             rotary: [3, 4].map(|number| self.stands(number)),
             frame: self.frame_of_tip(),
         })
@@ -240,22 +240,18 @@ impl Control {
     fn frame_of_tip(&self) -> Option<Frame> {
         let state = &self.state;
         (state.is(modal::TCP, true)).then(|| Frame {
-            plane: state.get(modal::PLANE),
-            unit: state.get(modal::UNITS),
-            work_offset: state.get(modal::WORK_OFFSET),
-            tilted: state.get(modal::WORK_PLANE),
-            in_cycle: state.get(modal::CYCLE),
+            groups: FRAME.map(|group| state.groups().value(group)),
             shifted: matches!(self.place(0), Place::Shifted(_)),
             of_machine: (0..5).any(|number| self.place(number) == Place::Clear),
         })
     }
 
-    /// A number that is another one where texts have named a length of the tool or taken it off;
-    /// on a SINUMERIK H is any function, and another edge counts from its own length.
-    fn lengths_said(&self) -> u32 {
+    /// Texts have named a length of the tool or taken it off; on a SINUMERIK H is any function,
+    /// and another edge counts from its own length.
+    fn length_was_named(&self, before: &BeforeOthers) -> bool {
         match self.tables.family {
-            ControlFamily::Sinumerik => u32::from(self.sinumerik.edge() == Some(0)),
-            _ => self.state.groups().written(modal::LENGTH_WORD),
+            ControlFamily::Sinumerik => (self.sinumerik.edge() == Some(0)) != before.without_edge,
+            _ => self.state.groups().changed_since_foreign(modal::LENGTH_WORD),
         }
     }
 
@@ -263,7 +259,7 @@ impl Control {
     /// which goes on: controls differ in what that does.
     fn refuse_under_tip_control(&self, before: &BeforeOthers) -> Result<()> {
         let changed = self.state.groups().changed_since_foreign(modal::TOOL_CHANGED);
-        if before.frame.is_some() && (changed || self.lengths_said() != before.lengths_said) {
+        if before.frame.is_some() && (changed || self.length_was_named(before)) {
             return PostCode::TipControl.err_with(
                 "a text changes the tool, names a length or takes it off, and tool-tip control \
                  goes on with that of the tool before",

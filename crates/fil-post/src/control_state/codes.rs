@@ -10,7 +10,7 @@ use fil_machine::modes::FeedMode;
 use fil_machine::setting::CodeAt;
 use fil_machine::{Commons, FunctionCode, Letter, letters};
 
-use super::{Rotation, length, text};
+use super::{Rotation, functions, length};
 
 /// G34 and G35 of a SINUMERIK: threading moves whose lead grows, and shrinks.
 pub const VARYING_LEADS_OF_SINUMERIK: [FunctionCode; 2] =
@@ -215,7 +215,7 @@ impl Codes {
             Meaning::Origin(origin) => origin.is_offset(),
             _ => true,
         };
-        !self.places_zero(words) && text::functions(words).all(moves)
+        !self.places_zero(words) && functions(words).all(moves)
     }
 
     /// True for words that place the origin: those of the code that limits the speed, which on a
@@ -223,7 +223,7 @@ impl Codes {
     pub fn places_zero(&self, words: &[(Letter, f64)]) -> bool {
         let has = |letters: &[u8]| words.iter().any(|(letter, _)| letters.contains(&letter.byte()));
         let is_limit = |code| self.meaning(code) == Meaning::SpeedLimit;
-        has(b"XZUW") && text::functions(words).any(is_limit)
+        has(b"XZUW") && functions(words).any(is_limit)
     }
 
     /// True when a motion code ends a cycle that no code ends.

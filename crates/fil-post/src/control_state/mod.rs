@@ -8,18 +8,18 @@
 mod auxiliaries;
 mod codes;
 mod doubts;
+mod foreign;
 mod learning;
 mod length;
 mod levels;
 pub mod modal;
 mod others;
 mod skip;
-pub(crate) mod text;
 
 pub use codes::{Codes, THREAD_OF_OSP, VARYING_LEADS_OF_SINUMERIK};
 pub use fil_machine::functions::Meaning;
 pub use fil_machine::modes::{Compensation, Distance};
-pub use text::{TextFrame, TextWords, read as text_words};
+pub use foreign::{Effect, ForeignBlock, TextFrame, functions};
 
 use fil_machine::locations as loc;
 use fil_machine::modes::{FeedMode, Plane, Unit};
@@ -147,6 +147,11 @@ impl ControlState {
     /// A modal group may have any value.
     pub fn forget<T>(&mut self, of: Of<T>, source: Source) {
         self.groups.forget(of, source);
+    }
+
+    /// What is known of any modal group from here on.
+    pub fn write(&mut self, group: modal::Group, know: Know<modal::Value>) {
+        self.groups.write(group, know);
     }
 
     /// The same, or it becomes unknown.

@@ -324,6 +324,11 @@ impl Groups {
         }
     }
 
+    /// The value of any group, if it is known.
+    pub fn value(&self, group: Group) -> Option<Value> {
+        self.cells[group as usize].know.value()
+    }
+
     /// What is known of a group.
     pub fn know<T: Modal>(&self, of: Of<T>) -> Know<T> {
         let typed = |value: Option<Value>| value.and_then(T::of);
@@ -364,8 +369,9 @@ impl Groups {
         cell.know = unread(of.group as usize, cell.know, Source::Author);
     }
 
+    /// What is known of a group from here on.
     #[inline]
-    fn write(&mut self, group: Group, know: Know<Value>) {
+    pub fn write(&mut self, group: Group, know: Know<Value>) {
         self.writes += 1;
         self.cells[group as usize] = Cell { know, written: self.writes };
     }

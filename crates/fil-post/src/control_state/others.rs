@@ -5,8 +5,8 @@ use fil_machine::functions::Origin;
 use fil_machine::modes::Unit;
 use fil_machine::{FunctionCode, Letter, letters};
 
+use super::foreign::{ForeignBlock, TextFrame};
 use super::modal::{CYCLE, DISTANCE, MOTION, TOOL, TOOL_WORD, UNITS, WORK_OFFSET, WORK_PLANE};
-use super::text::{self, TextFrame, TextWords};
 use super::{AXIS_LETTERS, Codes, ControlState, Distance, Meaning, Source};
 
 /// What preparatory functions of others do to where the axes stand.
@@ -78,17 +78,11 @@ impl ControlState {
     /// may have changed its data.
     pub fn learn_words(&mut self, words: &[(Letter, f64)], codes: &Codes) {
         let cycle = !self.is(CYCLE, false);
-        let ways = Ways::of(words, codes, self.get(WORK_OFFSET));
-        for (letter, value) in words {
-            match (*letter, FunctionCode::of_value(*value)) {
-                (letters::G, Some(code)) => self.learn_code(code, codes, Source::Author),
-                (letters::M, Some(code)) => self.learn_auxiliary(code, codes, Source::Author),
-                (letters::T, _) => self.names_tool(*value, codes),
-                (letters::H, _) => self.names_length(*value, ways.length),
-                (letter, _) if cycle => self.doubt(letter),
-                (letter, _) => self.trust(letter),
-            }
-        }
+        let by_letter = |state: &mut Self, letter| match cycle {
+            true => state.doubt(letter),
+            false => state.trust(letter),
+        };
+        let ways = self.learn_functions(words, codes, by_letter);
         let has = |letters: &[u8]| words.iter().any(|(letter, _)| letters.contains(&letter.byte()));
         self.learn_ways(words, ways, codes);
         let cycle = cycle || !self.is(CYCLE, false);
@@ -101,6 +95,28 @@ impl ControlState {
         } else if counts_on {
             self.doubt_axes();
         }
+    }
+
+    /// Learns what the functions of words do, tools and lengths among them; `by_letter` what other
+    /// words do.
+    fn learn_functions(
+        &mut self,
+        words: &[(Letter, f64)],
+        codes: &Codes,
+        by_letter: impl Fn(&mut Self, Letter),
+    ) -> Ways {
+        let ways = Ways::of(words, codes, self.get(WORK_OFFSET));
+        for (letter, value) in words {
+            match (*letter, FunctionCode::of_value(*value)) {
+                (letters::G, Some(code)) => self.learn_code(code, codes, Source::Author),
+                (letters::M, Some(code)) => self.learn_auxiliary(code, codes, Source::Author),
+                (letters::G | letters::M, None) => self.doubt_all(Source::Author),
+                (letters::T, _) => self.names_tool(*value, codes),
+                (letters::H, _) => self.names_length(*value, ways.length),
+                (letter, _) => by_letter(self, letter),
+            }
+        }
+        ways
     }
 
     /// Learns from a block of the post that was edited, and has no functions but its own; `made` is
@@ -132,61 +148,40 @@ impl ControlState {
         }
     }
 
-    /// Learns from a text that was written as it is; what can't be read makes all
-    /// unknown. `unit` is that of the program.
-    pub fn learn_text(&mut self, text: &str, codes: &Codes, unit: Option<Unit>) {
-        match text::read(text) {
-            Some(words) => self.learn_text_words(&words, codes, unit),
-            None => self.doubt_all(Source::Author),
-        }
-    }
-
-    /// Learns from the words of a text.
-    pub(crate) fn learn_text_words(
-        &mut self,
-        words: &TextWords,
-        codes: &Codes,
-        unit: Option<Unit>,
-    ) {
-        let before = words.skipped.then(|| self.clone());
-        if words.calls_subprogram() {
+    /// Learns from the words of a text that was read whole. `unit` is that of the program.
+    pub fn learn_text(&mut self, block: &ForeignBlock, codes: &Codes, unit: Option<Unit>) {
+        let words = &block.words;
+        let before = block.skipped.then(|| self.clone());
+        if block.calls_subprogram() {
             self.doubt_all(Source::Author);
         }
         let in_cycle = self.get(CYCLE);
-        let mut ways = Ways::of(&words.words, codes, self.get(WORK_OFFSET));
-        for (letter, value) in &words.words {
-            match (*letter, FunctionCode::of_value(*value)) {
-                (letters::G, Some(code)) => self.learn_code(code, codes, Source::Author),
-                (letters::G | letters::M, None) => self.doubt_all(Source::Author),
-                (letters::M, Some(code)) => self.learn_auxiliary(code, codes, Source::Author),
-                (letters::T, _) => self.names_tool(*value, codes),
-                (letters::H, _) => self.names_length(*value, ways.length),
-                (letter, _) if is_axis(letter) => self.doubt_axes(),
-                (letter, _) => self.doubt(letter),
-            }
-        }
-        match words.frame {
+        let mut ways = self.learn_functions(words, codes, |state, letter| match is_axis(letter) {
+            true => state.doubt_axes(),
+            false => state.doubt(letter),
+        });
+        match block.frame {
             TextFrame::Stays => {}
             TextFrame::OfTheMachine => ways.of_machine = true,
             TextFrame::Shifted => (ways.shifts, ways.says_zero) = (true, true),
             TextFrame::Turned => ways.turns = true,
             TextFrame::Unread => ways.astray = true,
         }
-        self.learn_ways(&words.words, ways, codes);
+        self.learn_ways(words, ways, codes);
         let is_motion =
             !(ways.of_machine || ways.says_zero || ways.turns || ways.astray || ways.pauses);
         let is_level_or_code =
             |(letter, _): &(Letter, f64)| matches!(*letter, letters::R | letters::G);
         // Behind a hole more the tool comes back to the level that it came from.
-        let is_hole = in_cycle == Some(true) && !words.words.iter().any(is_level_or_code);
-        if is_motion && !is_hole && words.words.iter().any(|(letter, _)| is_axis(*letter)) {
+        let is_hole = in_cycle == Some(true) && !words.iter().any(is_level_or_code);
+        if is_motion && !is_hole && words.iter().any(|(letter, _)| is_axis(*letter)) {
             let drills = in_cycle != Some(false) || !self.is(CYCLE, false);
             let is_read = !drills && unit.is_some() && self.get(UNITS) == unit;
-            self.learn_motion(&words.words, is_read);
+            self.learn_motion(words, is_read);
         }
         if let Some(before) = before {
             self.agree_with(&before);
-            if words.words.iter().any(|(letter, _)| is_axis(*letter)) {
+            if words.iter().any(|(letter, _)| is_axis(*letter)) {
                 self.lose_axes();
             }
         }

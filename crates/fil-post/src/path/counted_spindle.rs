@@ -22,8 +22,8 @@ pub(super) fn refuse_choices_of_others(control: &Control, operation: &Operation)
     let choices = [loc::SPINDLE_SIDE_MASTER_CODE, loc::SPINDLE_MAIN_MASTER_CODE]
         .map(|at| control.code_if_any(at));
     let found = match operation {
-        Operation::Text(text) if control.tables.family == ControlFamily::Sinumerik => {
-            reader::transforms(text)
+        Operation::Text(blocks) if control.tables.family == ControlFamily::Sinumerik => {
+            blocks.iter().any(reader::transforms)
         }
         _ => functions_of_others::has(operation, |letter, code| {
             letter == letters::M && choices.contains(&Some(code))

@@ -2,10 +2,9 @@
 
 use fil_machine::{FunctionCode, Letter, letters};
 
-use crate::control_state::text;
 use crate::operation::Operation;
 
-/// True where an operation writes a function that is meant, a text as word address is read.
+/// True where an operation writes a function that is meant, or a text one that can be read.
 pub(super) fn has(operation: &Operation, is_meant: impl Fn(Letter, FunctionCode) -> bool) -> bool {
     let by_value = |(letter, value): (Letter, f64)| {
         FunctionCode::of_value(value).is_some_and(|code| is_meant(letter, code))
@@ -16,9 +15,7 @@ pub(super) fn has(operation: &Operation, is_meant: impl Fn(Letter, FunctionCode)
         Operation::Words(words) | Operation::Repeat(words) => {
             words.iter().any(|(letter, value, _)| by_value((*letter, *value)))
         }
-        Operation::Text(text) => {
-            text::read(text).is_some_and(|read| read.words.into_iter().any(by_value))
-        }
+        Operation::Text(blocks) => blocks.iter().any(|block| block.has_function(&is_meant)),
         _ => false,
     }
 }

@@ -27,7 +27,7 @@ use crate::control::sinumerik::{reader, transformation};
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::{modes, spindle};
 use crate::control::{family, full_turn};
-use crate::control_state::{Meaning, Rotation, Source, modal, text};
+use crate::control_state::{ForeignBlock, Meaning, Rotation, Source, modal};
 use crate::errors::PostCode;
 use crate::operation::{
     Arc, Feed, MotionKind, Operation, SideSpindle, Spindle, SpindleTurn, Target,
@@ -368,9 +368,9 @@ fn changes_plane(control: &Control, operation: &Operation) -> bool {
         letters::M => control.changes_tool(code) || control.calls_program(code),
         _ => false,
     };
-    let is_unread = |text: &str| text::read(text).is_none();
+    let says_more = |blocks: &[ForeignBlock]| !blocks.iter().all(ForeignBlock::is_words);
     functions_of_others::has(operation, changes)
-        || matches!(operation, Operation::Text(text) if is_unread(text))
+        || matches!(operation, Operation::Text(blocks) if says_more(blocks))
 }
 
 /// Refuses functions of others that change what C and the main spindle are: the post would not
@@ -398,10 +398,13 @@ fn refuse_modes_of_others(control: &Control, operation: &Operation) -> Result<()
         _ => false,
     };
     let found = match operation {
-        Operation::Text(text) if control.tables.family == ControlFamily::Sinumerik => {
+        Operation::Text(blocks) if control.tables.family == ControlFamily::Sinumerik => {
             let milling = control.code_if_any(loc::MILL_TURN_MILLING_CODE);
-            let is_milling = |code: FunctionCode| text.contains(&format!("M{}", code.value()));
-            reader::transforms(text) || milling.is_some_and(is_milling)
+            let milling = milling.map(|code| format!("M{}", code.value()));
+            let is_milling = |item: &String| Some(item) == milling.as_ref();
+            blocks
+                .iter()
+                .any(|block| reader::transforms(block) || block.items.iter().any(is_milling))
         }
         _ => functions_of_others::has(operation, changes),
     };
@@ -436,8 +439,9 @@ fn refuse_axes_of_others(control: &Control, operation: &Operation) -> Result<()>
         Operation::Words(words) | Operation::Repeat(words) => {
             words.iter().any(|(letter, ..)| counts_otherwise(*letter))
         }
-        Operation::Text(text) => text::read(text)
-            .is_some_and(|read| read.words.iter().any(|(letter, _)| counts_otherwise(*letter))),
+        Operation::Text(blocks) => blocks
+            .iter()
+            .any(|block| block.words().iter().any(|(letter, _)| counts_otherwise(*letter))),
         _ => false,
     };
     match found {

@@ -12,7 +12,7 @@ use crate::post::Post;
 /// # Errors
 /// A character that must not reach the tape.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
-    let text = items.text().to_string();
+    let blocks = post.control.read_insert(items.text());
     items.deny_rest()?;
-    carry_out(post, Operation::Text(text))
+    carry_out(post, Operation::Text(blocks))
 }

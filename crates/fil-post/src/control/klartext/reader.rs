@@ -1,10 +1,13 @@
 //! The small reader of lines that others put on the tape. It is made to say "I can't"
 //! rather than guess; then all is unknown.
 
+use fil_machine::modes::FeedMode;
 use fil_machine::{FunctionCode, Letter, letters};
 
 use crate::control::Control;
-use crate::control_state::{Compensation, CutterPath, Rotation, Source, TOOL_CHANGE, modal};
+use crate::control_state::{
+    Compensation, CutterPath, Distance, Effect, ForeignBlock, Rotation, Source, TOOL_CHANGE, modal,
+};
 
 /// What an M function does to what the post counts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,60 +36,57 @@ pub fn meaning(number: f64) -> Auxiliary {
     }
 }
 
-/// Learns from a line of others.
-pub fn learn(control: &mut Control, text: &str) {
+/// Reads a line of others.
+pub fn read(text: &str) -> ForeignBlock {
+    let mut block = ForeignBlock::default();
     let mut line = text.trim();
     line = line.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start();
     let code = line.split(';').next().unwrap_or("").trim();
     if code.is_empty() || code.starts_with('*') {
-        return;
+        return block;
     }
     let upper = code.to_ascii_uppercase();
     let items: Vec<&str> = upper.split_whitespace().collect();
+    block.items = items.iter().map(|item| item.to_string()).collect();
+    let forgets_cycle = Effect::Forget(modal::CYCLE_CODE.group);
     match items[..] {
         ["BLK", "FORM", ..] | ["TOOL", "DEF", ..] => {}
         ["STOP", ref rest @ ..] => {
-            control.state.set(modal::SPINDLE_HALTED, true);
-            motion(control, rest);
+            block.effects.push(Effect::set(modal::SPINDLE_HALTED, true));
+            motion(&mut block, rest);
         }
         ["END", "PGM", ..] => {
-            control.klartext.ended = true;
-            control.state.set(modal::PROGRAM_END, true);
+            block.effects.extend([Effect::EndsProgramText, Effect::set(modal::PROGRAM_END, true)])
         }
         ["TOOL", "CALL", ref rest @ ..] if !rest.is_empty() && rest.iter().all(says_speed) => {
-            control.state.doubt(letters::S);
+            block.effects.push(Effect::Doubt(letters::S));
         }
-        ["TOOL", "CALL", ..] => {
-            control.state.forget(modal::TOOL, Source::Author);
-            control.state.set(modal::TOOL_CHANGED, true);
+        ["TOOL", "CALL", ..] => block.effects.extend([
+            Effect::Forget(modal::TOOL.group),
+            Effect::set(modal::TOOL_CHANGED, true),
             // The control changes the tool with the spindle standing.
-            control.state.set(modal::SPINDLE, Rotation::Standing);
-            tool_change_moves(control);
-            control.state.doubt(letters::S);
-        }
-        ["CYCL", "DEF", number, ..] if !frames(number) => {
-            control.state.forget(modal::CYCLE_CODE, Source::Author)
-        }
+            Effect::set(modal::SPINDLE, Rotation::Standing),
+            Effect::ToolChangeMoves,
+            Effect::Doubt(letters::S),
+        ]),
+        ["CYCL", "DEF", number, ..] if !frames(number) => block.effects.push(forgets_cycle),
         ["CYCL", "DEF", number, ..] => {
-            control.state.forget(modal::CYCLE_CODE, Source::Author);
-            match shifts(number) {
-                true => control.state.shift_axes(),
-                false => control.state.lose_axes(),
-            }
+            let moved = if shifts(number) { Effect::ShiftAxes } else { Effect::LoseAxes };
+            block.effects.extend([forgets_cycle, moved]);
         }
-        ["CYCL", "CALL", ..] => control.state.lose_axes(),
+        ["CYCL", "CALL", ..] => block.effects.push(Effect::LoseAxes),
         // A parameter gets a value, and no mode and no axis is touched.
         ["FN", number, name, "=", ..] if is_assignment(number) && is_parameter(name) => {}
         [name, "=", ..] if is_parameter(name) => {}
         // The tool goes along its axis to the end of the travel.
         ["M140", "MB", "MAX"] | ["L", "M140", "MB", "MAX"] => {
-            control.state.doubt_axes();
-            control.state.clears(control.tables.axis(2).letter);
+            block.effects.extend([Effect::DoubtAxes, Effect::Clears(letters::XYZ[2])]);
         }
-        ["L", ref rest @ ..] => motion(control, rest),
-        [first, ..] if first.starts_with('M') => motion(control, &items),
-        _ => forget(control),
+        ["L", ref rest @ ..] => motion(&mut block, rest),
+        [first, ..] if first.starts_with('M') => motion(&mut block, &items),
+        _ => block.cannot_read(code),
     }
+    block
 }
 
 /// A word of TOOL CALL that leaves tool and length: the tool axis, or a speed.
@@ -135,59 +135,62 @@ fn is_parameter(name: &str) -> bool {
 }
 
 /// The items of an L line or of one that has only functions.
-fn motion(control: &mut Control, items: &[&str]) {
+fn motion(block: &mut ForeignBlock, items: &[&str]) {
     let of_machine = items.iter().any(|item| matches!(*item, "M91" | "M92"));
     for item in items {
         match *item {
             "FMAX" => {}
-            "R0" => side(control, Compensation::Off),
-            "RL" => side(control, Compensation::Left),
-            "RR" => side(control, Compensation::Right),
-            _ => word(control, item, of_machine),
+            "R0" => side(block, Compensation::Off),
+            "RL" => side(block, Compensation::Left),
+            "RR" => side(block, Compensation::Right),
+            _ => word(block, item, of_machine),
         }
     }
 }
 
-fn side(control: &mut Control, side: Compensation) {
-    control.state.set(modal::CUTTER_COMP, side);
+fn side(block: &mut ForeignBlock, side: Compensation) {
     let path = match side {
         Compensation::Off => CutterPath::Unmoved,
         _ => CutterPath::Moved,
     };
-    control.state.set(modal::CUTTER_PATH, path);
+    block
+        .effects
+        .extend([Effect::set(modal::CUTTER_COMP, side), Effect::set(modal::CUTTER_PATH, path)]);
 }
 
-fn word(control: &mut Control, item: &str, of_machine: bool) {
+fn word(block: &mut ForeignBlock, item: &str, of_machine: bool) {
     let mut rest = item.chars();
     let first = rest.next();
     let number = rest.as_str().parse::<f64>();
+    let effects = &mut block.effects;
     match (first, number) {
         (Some('M'), Ok(number)) => match meaning(number) {
-            Auxiliary::Harmless => learn_function(control, number),
-            Auxiliary::End => control.state.set(modal::PROGRAM_END, true),
+            Auxiliary::Harmless => effects.push(Effect::Auxiliary(number)),
+            Auxiliary::End => effects.push(Effect::set(modal::PROGRAM_END, true)),
             Auxiliary::PerMinute => {
-                control.state.set(modal::FEED_MODE, fil_machine::modes::FeedMode::PerMinute);
+                effects.push(Effect::set(modal::FEED_MODE, FeedMode::PerMinute));
             }
-            Auxiliary::PerTurn => {
-                control.state.set(modal::FEED_MODE, fil_machine::modes::FeedMode::PerRevolution);
-                control.state.doubt(letters::F);
-            }
+            Auxiliary::PerTurn => effects.extend([
+                Effect::set(modal::FEED_MODE, FeedMode::PerRevolution),
+                Effect::Doubt(letters::F),
+            ]),
             // In the frame of the machine for this line only, and a call of the cycle.
-            Auxiliary::Changes if matches!(number as i64, 91 | 92) => control.state.doubt_axes(),
-            Auxiliary::Changes if number as i64 == 99 => control.state.lose_axes(),
-            Auxiliary::Changes => forget(control),
-        },
-        (Some('F'), Ok(_)) => control.state.doubt(letters::F),
-        (Some(axis @ ('X' | 'Y' | 'Z' | 'A' | 'B' | 'C' | 'U' | 'V' | 'W')), Ok(value)) => {
-            control.state.doubt_axes();
-            match Letter::of_character(axis) {
-                Some(letter) if of_machine => control.state.clears(letter),
-                Some(letter) => control.state.stand(letter, value),
-                None => {}
+            Auxiliary::Changes if matches!(number as i64, 91 | 92) => {
+                effects.push(Effect::DoubtAxes);
             }
+            Auxiliary::Changes if number as i64 == 99 => effects.push(Effect::LoseAxes),
+            Auxiliary::Changes => block.cannot_read(item),
+        },
+        (Some('F'), Ok(_)) => effects.push(Effect::Doubt(letters::F)),
+        (Some(axis @ ('X' | 'Y' | 'Z' | 'A' | 'B' | 'C' | 'U' | 'V' | 'W')), Ok(value)) => {
+            effects.push(Effect::DoubtAxes);
+            effects.extend(Letter::of_character(axis).map(|letter| match of_machine {
+                true => Effect::Clears(letter),
+                false => Effect::Stands(letter, value),
+            }));
         }
-        (Some('I'), _) if rest.as_str().len() > 1 => control.state.lose_axes(),
-        _ => forget(control),
+        (Some('I'), _) if rest.as_str().len() > 1 => effects.push(Effect::LoseAxes),
+        _ => block.cannot_read(item),
     }
 }
 
@@ -201,7 +204,7 @@ pub fn learn_turning(control: &mut Control, number: f64) {
 }
 
 /// Learns what a function of others does to the spindle and the program.
-fn learn_function(control: &mut Control, number: f64) {
+pub fn learn_function(control: &mut Control, number: f64) {
     let Some(code) = FunctionCode::of_value(number) else { return };
     learn_turning(control, number);
     control.state.learn_auxiliary(code, &control.codes, Source::Author);
@@ -218,19 +221,24 @@ fn learn_function(control: &mut Control, number: f64) {
 }
 
 /// A tool change may have moved all axes.
-fn tool_change_moves(control: &mut Control) {
+pub fn tool_change_moves(control: &mut Control) {
     for number in control.tables.present().numbers() {
         control.state.tool_change_moves(control.tables.axis(number).letter);
     }
 }
 
+/// END PGM stands on the tape.
+pub fn ends_program_text(control: &mut Control) {
+    control.klartext.ended = true;
+}
+
 /// Nothing is known any more but what no line can change.
-fn forget(control: &mut Control) {
+pub fn forget(control: &mut Control) {
     let (unit, plane) = (control.state.get(modal::UNITS), control.state.get(modal::PLANE));
     control.state.doubt_all(Source::Author);
     control.klartext.clockwise = None;
     control.state.set_if_known(modal::UNITS, unit, Source::Author);
     control.state.set_if_known(modal::PLANE, plane, Source::Author);
-    control.state.set(modal::DISTANCE, crate::control_state::Distance::Absolute);
+    control.state.set(modal::DISTANCE, Distance::Absolute);
     control.state.set(modal::CYCLE, false);
 }

@@ -2,12 +2,11 @@
 //! rather than guess; then all is unknown.
 
 use fil_diag::Result;
-use fil_machine::{Letter, letters, locations as loc};
+use fil_machine::{Commons, Letter, letters, locations as loc};
 
-use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family::refuse;
-use crate::control_state::{Rotation, Source, TextFrame, TextWords, modal};
+use crate::control_state::{Effect, ForeignBlock, Rotation, Source, TextFrame, modal};
 
 /// Statements that change nothing the post counts on: how the path is smoothed and
 /// driven, what stands beside the motions.
@@ -64,67 +63,53 @@ const FRAMES: &[&str] =
 ///
 /// # Errors
 /// It does.
-pub fn refuse_other_diameters(control: &Control, text: &str) -> Result<()> {
-    let changes = ["DIAMOF", "DIAM90", "DIAMCHAN"];
-    let said = items(without_comment(text));
+pub fn refuse_other_diameters(control: &Control, block: &ForeignBlock) -> Result<()> {
     let is_lathe = control.commons.read(loc::LATHE_DIAMETER);
-    match said.iter().find(|item| is_lathe && changes.contains(&item.as_str())) {
+    match block.named(&["DIAMOF", "DIAM90", "DIAMCHAN"]).filter(|_| is_lathe) {
         Some(item) => refuse(format!("{item}: the post writes X as a diameter")),
         None => Ok(()),
     }
 }
 
 /// A text begins or ends a transformation, or chooses another master spindle.
-pub fn transforms(text: &str) -> bool {
-    let named = ["TRANSMIT", "TRACYL", "TRAANG", "TRAFOOF", "SETMS", "SPCON", "SPCOF"];
-    let said = items(without_comment(text));
-    said.iter().any(|item| named.contains(&item.split('(').next().unwrap_or(item)))
+pub fn transforms(block: &ForeignBlock) -> bool {
+    let names = ["TRANSMIT", "TRACYL", "TRAANG", "TRAFOOF", "SETMS", "SPCON", "SPCOF"];
+    block.named(&names).is_some()
 }
 
-/// Learns from a block of others.
-pub fn learn(control: &mut Control, text: &str) {
-    let text = without_comment(text).trim();
-    let mut words = TextWords::default();
-    let text = match text.strip_prefix('/') {
-        Some(rest) => {
-            words.skipped = true;
-            rest.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start()
-        }
-        None => text,
-    };
-    if text.is_empty() || text.starts_with('%') {
-        return;
+/// Reads a block of others.
+pub fn read(text: &str, commons: &Commons) -> ForeignBlock {
+    let mut block = ForeignBlock::default();
+    let mut text = without_comment(text).trim();
+    if let Some(rest) = text.strip_prefix('/') {
+        block.skipped = true;
+        text = rest.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start();
     }
-    if words.skipped {
-        // What a block does that may be skipped is known in no case that matters.
-        control.state.doubt_all(Source::Author);
-        return;
+    if text.starts_with('%') {
+        return block;
     }
-    let items = items(text);
-    let calls = items.first().is_some_and(|item| item == "MCALL");
-    if calls {
-        control.state.forget(modal::CYCLE_CODE, Source::Author);
-        control.sinumerik.called.clear();
-        control.state.set(modal::CYCLE, items.len() > 1);
-        return;
+    let mut items = items(text);
+    if items.first().is_some_and(|item| item.starts_with('N') && is_digits(&item[1..])) {
+        items.remove(0);
     }
-    for (number, item) in items.iter().enumerate() {
-        let is_number = number == 0 && item.starts_with('N') && is_digits(&item[1..]);
-        if !is_number && !take(control, item, &mut words) {
-            control.state.doubt_all(Source::Author);
-            control.sinumerik.edge = None;
-            control.state.forget(modal::TOOL_OFFSET, Source::Author);
-            control.sinumerik.clockwise = None;
-            return;
-        }
+    if items.first().is_some_and(|item| item == "MCALL") {
+        let calls = items.len() > 1;
+        block.effects.extend([
+            Effect::Forget(modal::CYCLE_CODE.group),
+            Effect::OtherCall,
+            Effect::set(modal::CYCLE, calls),
+        ]);
+    } else if let Some(strange) = items.iter().position(|item| !take(item, &mut block, commons)) {
+        block.cannot_read(&items[strange]);
+        block.words.extend(items[strange..].iter().filter_map(|item| word(item)));
     }
-    learn_turning(control, words.words.iter().copied());
-    control.state.learn_text_words(&words, &control.codes, control.unit);
+    block.items = items;
+    block
 }
 
-/// The words of a line as far as they can be read, its number left out: `M1=3` is M3, SUPA is G53.
-pub fn readable_words(line: &str) -> Vec<(Letter, f64)> {
-    let words = items(without_comment(line)).into_iter().filter_map(|item| {
+/// The words of a block as far as they can be read: `M1=3` is M3, SUPA is G53.
+pub fn readable_words(block: &ForeignBlock) -> Vec<(Letter, f64)> {
+    let words = block.items.iter().filter_map(|item| {
         if item == "SUPA" {
             return Some((letters::G, 53.0));
         }
@@ -141,67 +126,74 @@ pub fn readable_words(line: &str) -> Vec<(Letter, f64)> {
     words.filter(|(letter, _)| *letter != letters::N).collect()
 }
 
-/// Learns from words that were written one after the other (POSTN, PREFUN, AUXFUN).
-pub fn learn_words(control: &mut Control, words: &[(Letter, f64, Cause)]) {
-    learn_turning(control, words.iter().map(|(letter, value, _)| (*letter, *value)));
-    for (_, value, _) in words.iter().filter(|(letter, ..)| *letter == letters::D) {
-        edge(control, *value);
-    }
+/// Nothing is known any more.
+pub fn forget(control: &mut Control) {
+    control.state.doubt_all(Source::Author);
+    control.sinumerik.edge = None;
+    control.state.forget(modal::TOOL_OFFSET, Source::Author);
+    control.sinumerik.clockwise = None;
 }
 
 /// Takes an item up; false for one that can't be read.
-fn take(control: &mut Control, item: &str, words: &mut TextWords) -> bool {
+fn take(item: &str, block: &mut ForeignBlock, commons: &Commons) -> bool {
     if let Some((name, _)) = item.split_once('(').filter(|(name, _)| !name.contains('=')) {
-        return called(control, name, words);
+        return called(name, block);
     }
     if let Some((name, value)) = item.split_once('=') {
-        return assigned(control, name, value, words);
+        return assigned(name, value, block, commons);
     }
     if HARMLESS.contains(&item) {
         return true;
     }
     if FRAMES.contains(&item) {
-        control.state.doubt_axes();
-        words.frame = match item {
+        block.effects.push(Effect::DoubtAxes);
+        block.frame = match item {
             "SUPA" => TextFrame::OfTheMachine,
             "TRANS" | "ATRANS" => TextFrame::Shifted,
             _ => TextFrame::Turned,
         };
         return true;
     }
-    let mut rest = item.chars();
-    let letter = rest.next().and_then(Letter::of_character);
-    let value = rest.as_str().parse::<f64>().ok().filter(|value| value.is_finite());
-    let (Some(letter), Some(value)) = (letter, value) else { return false };
+    let Some((letter, value)) = word(item) else { return false };
     match letter.byte() {
-        b'D' => edge(control, value),
+        b'D' => block.effects.push(Effect::Edge(value)),
         // A call of a subprogram, or a parameter without its value.
         b'L' | b'P' | b'R' => return false,
-        b'M' if value == 17.0 => control.state.set(modal::PROGRAM_END, true),
-        _ => words.words.push((letter, value)),
+        b'M' if value == 17.0 => block.effects.push(Effect::set(modal::PROGRAM_END, true)),
+        _ => block.words.push((letter, value)),
     }
     true
 }
 
-fn called(control: &mut Control, name: &str, words: &mut TextWords) -> bool {
+/// A letter with its number.
+fn word(item: &str) -> Option<(Letter, f64)> {
+    let mut rest = item.chars();
+    let letter = rest.next().and_then(Letter::of_character)?;
+    let value = rest.as_str().parse::<f64>().ok().filter(|value| value.is_finite())?;
+    Some((letter, value))
+}
+
+fn called(name: &str, block: &mut ForeignBlock) -> bool {
     if HARMLESS_CALLS.contains(&name) {
         return true;
     }
     let drills = name.strip_prefix("CYCLE").and_then(|number| number.parse::<u32>().ok());
     let turns = FRAMES.contains(&name);
     if turns || drills.is_some_and(|number| (81..90).contains(&number)) {
-        words.frame = if turns { TextFrame::Turned } else { TextFrame::Unread };
-        control.state.doubt_axes();
-        control.state.doubt(letters::F);
-        control.state.doubt(letters::S);
-        control.state.forget(modal::MOTION, Source::Author);
+        block.frame = if turns { TextFrame::Turned } else { TextFrame::Unread };
+        block.effects.extend([
+            Effect::DoubtAxes,
+            Effect::Doubt(letters::F),
+            Effect::Doubt(letters::S),
+            Effect::Forget(modal::MOTION.group),
+        ]);
         return true;
     }
     false
 }
 
 /// `X1=10`, `S1=1000`, `M1=3`, `CR=5`, `R5=10`, `T="MILL"`.
-fn assigned(control: &mut Control, name: &str, value: &str, words: &mut TextWords) -> bool {
+fn assigned(name: &str, value: &str, block: &mut ForeignBlock, commons: &Commons) -> bool {
     let number = value.parse::<f64>().ok().filter(|value| value.is_finite());
     let letters_of_name: String = name.chars().take_while(char::is_ascii_alphabetic).collect();
     let index = &name[letters_of_name.len()..];
@@ -210,58 +202,47 @@ fn assigned(control: &mut Control, name: &str, value: &str, words: &mut TextWord
     }
     let of_some_spindle =
         matches!(letters_of_name.as_str(), "S" | "M" | "SPOS" | "SPOSA") && !index.is_empty();
-    if of_some_spindle && control.commons.int_opt(loc::SPINDLE_SIDE_NUMBER).is_some() {
+    if of_some_spindle && commons.int_opt(loc::SPINDLE_SIDE_NUMBER).is_some() {
         return false;
     }
-    match (letters_of_name.as_str(), number) {
+    let effect = match (letters_of_name.as_str(), number) {
         ("SPOS" | "SPOSA", Some(_)) => {
-            let own = control.commons.int_opt(loc::CONTROL_SPINDLE_INDEX).unwrap_or(1);
-            if index.is_empty() || index == format!("[{own}]") {
-                control.state.set(modal::SPINDLE, Rotation::Standing);
+            let own = commons.int_opt(loc::CONTROL_SPINDLE_INDEX).unwrap_or(1);
+            if !index.is_empty() && index != format!("[{own}]") {
+                return true;
             }
-            true
+            Effect::set(modal::SPINDLE, Rotation::Standing)
         }
-        ("LIMS", Some(limit)) => {
-            control.state.set(modal::SPEED_LIMIT, limit);
-            true
-        }
-        ("CTOL" | "ADIS" | "ADISPOS" | "OVR", Some(_)) => true,
+        ("LIMS", Some(limit)) => Effect::set(modal::SPEED_LIMIT, limit),
+        ("CTOL" | "ADIS" | "ADISPOS" | "OVR", Some(_)) => return true,
         ("T", number) => {
-            words.words.push((letters::T, number.unwrap_or_default()));
-            true
+            block.words.push((letters::T, number.unwrap_or_default()));
+            return true;
         }
-        ("D", Some(value)) => {
-            edge(control, value);
-            true
-        }
+        ("D", Some(value)) => Effect::Edge(value),
         // A parameter gets a value, and no mode and no axis is touched.
-        ("R", Some(_)) => is_digits(index),
-        ("F" | "FB", _) => {
-            control.state.doubt(letters::F);
-            true
-        }
-        ("S", _) => {
-            control.state.doubt(letters::S);
-            true
-        }
+        ("R", Some(_)) => return is_digits(index),
+        ("F" | "FB", _) => Effect::Doubt(letters::F),
+        ("S", _) => Effect::Doubt(letters::S),
         ("M", Some(value)) => {
-            words.words.push((letters::M, value));
-            true
+            block.words.push((letters::M, value));
+            return true;
         }
         // The value of a calculation is not known here, and neither is where they stand.
         ("X" | "Y" | "Z" | "A" | "B" | "C" | "U" | "V" | "W" | "Q", _)
         | ("CR" | "AR" | "AP" | "RP" | "TURN" | "RND" | "CHF" | "CHR" | "I" | "J" | "K", _)
         | ("I1" | "J1" | "K1" | "FP", _) => {
-            words.frame = TextFrame::Unread;
-            control.state.doubt_axes();
-            true
+            block.frame = TextFrame::Unread;
+            Effect::DoubtAxes
         }
-        _ => false,
-    }
+        _ => return false,
+    };
+    block.effects.push(effect);
+    true
 }
 
 /// Another cutting edge, or none: the length of the tool is another one.
-fn edge(control: &mut Control, value: f64) {
+pub fn edge(control: &mut Control, value: f64) {
     let edge = (value.fract() == 0.0 && value >= 0.0).then_some(value as i64);
     control.state.doubt_axes();
     if edge.is_none() || edge != control.sinumerik.edge {
@@ -273,15 +254,22 @@ fn edge(control: &mut Control, value: f64) {
     control.state.calls_length(edge != Some(0));
 }
 
-/// Which way the spindle turns, by its M functions.
-fn learn_turning(control: &mut Control, words: impl Iterator<Item = (Letter, f64)>) {
+/// Learns from words of others which way the spindle turns, by its M functions, and the cutting
+/// edge.
+pub fn learn_words(control: &mut Control, words: &[(Letter, f64)]) {
     for (letter, value) in words {
-        match (letter, value as i64) {
+        match (*letter, *value as i64) {
             (letters::M, 3) => control.sinumerik.clockwise = Some(true),
             (letters::M, 4) => control.sinumerik.clockwise = Some(false),
+            (letters::D, _) => edge(control, *value),
             _ => {}
         }
     }
+}
+
+/// The cycle that MCALL calls is another one.
+pub fn other_call(control: &mut Control) {
+    control.sinumerik.called.clear();
 }
 
 fn is_digits(text: &str) -> bool {

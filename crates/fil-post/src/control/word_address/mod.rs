@@ -12,6 +12,7 @@ mod function;
 pub mod modes;
 pub mod motion;
 pub mod osp_thread;
+pub mod reader;
 pub(crate) mod repeat;
 pub mod spindle;
 pub(super) mod stop;
@@ -42,7 +43,7 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
         Operation::WithMotion(code) => function::with_motion(control, code),
         Operation::Words(words) => control.write_words(&words),
         Operation::Repeat(words) => repeat::set(control, words),
-        Operation::Text(text) => text::insert(control, &text),
+        Operation::Text(blocks) => text::insert(control, &blocks),
         Operation::Message(text) => text::message(control, &text),
         Operation::Stop(stop) => stop::stop(control, stop),
         Operation::End(end) => stop::end(control, end),

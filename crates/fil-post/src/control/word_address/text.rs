@@ -7,31 +7,20 @@ use fil_machine::locations::{self as loc, SeqnoOnText};
 
 use super::modes::{self, Own};
 use crate::control::Control;
-use crate::control::texts::{clean_message, without_blanks};
-use crate::control_state::text::{self, TextWords};
-use crate::control_state::{Meaning, modal};
+use crate::control::texts::clean_message;
+use crate::control_state::{ForeignBlock, Meaning, functions, modal};
 use crate::errors::PostCode;
 
-/// Writes the text of an INSERT. The machine's end-of-block character splits it
-/// into several blocks.
+/// Writes the blocks of an INSERT.
 ///
 /// # Errors
-/// As [`Control::write_text`].
-pub fn insert(control: &mut Control, text: &str) -> Result<()> {
+/// As [`Control::write_foreign`].
+pub fn insert(control: &mut Control, blocks: &[ForeignBlock]) -> Result<()> {
     let on_text = control.commons.read(loc::SEQNO_ON_TEXT);
     let numbered = matches!(on_text, SeqnoOnText::Insert | SeqnoOnText::Both);
-    let end_of_block = control.commons.read(loc::TAPE_END_OF_BLOCK_CHAR);
-    for block in text.split(|c| Some(c) == end_of_block) {
-        let block = block.trim();
-        if block.is_empty() {
-            continue;
-        }
-        say_what_it_counts_on(control, block)?;
-        if control.commons.read(loc::MESSAGE_KEEP_BLANKS) {
-            control.write_text(block, numbered)?;
-        } else {
-            control.write_text(&without_blanks(block), numbered)?;
-        }
+    for block in blocks {
+        say_what_it_counts_on(control, block.words())?;
+        control.write_foreign(block, numbered)?;
     }
     Ok(())
 }
@@ -41,10 +30,12 @@ pub fn insert(control: &mut Control, text: &str) -> Result<()> {
 ///
 /// # Errors
 /// Nothing says mm or inch.
-fn say_what_it_counts_on(control: &mut Control, block: &str) -> Result<()> {
-    let Some(TextWords { words, .. }) = text::read(block) else { return Ok(()) };
+fn say_what_it_counts_on(control: &mut Control, words: &[(Letter, f64)]) -> Result<()> {
+    if words.is_empty() {
+        return Ok(());
+    }
     control.begin()?;
-    let codes = || text::functions(&words);
+    let codes = || functions(words);
     let says = |at| control.code_if_any(at).is_some_and(|code| codes().any(|said| said == code));
     let is_said = |kind: fn(Meaning) -> bool| codes().any(|code| kind(control.meaning(code)));
     let pauses = says(loc::DWELL_CODE);
