@@ -14,6 +14,7 @@ pub mod control_state;
 pub mod dispatch;
 pub mod editing;
 pub mod errors;
+pub mod euler;
 pub mod items;
 pub mod levels;
 pub mod no_effect;

@@ -7,6 +7,9 @@
 //! (PREFUN, AUXFUN, POSTN). LinuxCNC's canonical machining functions were the
 //! model for a list that is short and lasts.
 
+pub mod cycle;
+pub mod thread_shape;
+
 use fil_machine::modes::{FeedMode, Plane};
 use fil_machine::{FunctionCode, Letter};
 use nalgebra::{Point3, Vector3};

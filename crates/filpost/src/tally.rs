@@ -12,8 +12,8 @@ use fil_machine::locations::{self, RapidSplit};
 use fil_machine::modes::{FeedMode, INCH, Unit};
 use fil_machine::{Commons, Kind};
 use fil_post::Post;
+use fil_post::operation::cycle::{Cycle, CycleFeed};
 use fil_post::operation::{Arc, Feed, SpindleSpeed};
-use fil_post::path::cycle::{Cycle, CycleFeed};
 
 use crate::reach::{ArcPath, distance};
 use crate::report::Extents;

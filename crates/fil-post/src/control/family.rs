@@ -3,7 +3,7 @@
 
 use fil_diag::Result;
 use fil_machine::FunctionCode;
-use fil_machine::locations::ControlFamily;
+use fil_machine::locations::{ControlFamily, ThreadCycle};
 use fil_machine::modes::Plane;
 use nalgebra::Rotation3;
 
@@ -15,10 +15,9 @@ use super::{
 use crate::cause::Cause;
 use crate::control_state::modal;
 use crate::errors::PostCode;
+use crate::operation::cycle::{Cycle, Hole};
+use crate::operation::thread_shape::{Ends, Shape};
 use crate::operation::{Dwell, Feed, Lead, Operation, Thread, ToolChange};
-use crate::path::cycle::{Cycle, Hole};
-use crate::path::thread::Shape;
-use crate::post::Post;
 
 /// Refuses what the control's language has no word for.
 ///
@@ -112,16 +111,33 @@ pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead, change: f64) 
     }
 }
 
-/// Writes the cycle of one start of a whole thread; false where the machine has none that
-/// says all of it.
+/// True when the control's language has a cycle for whole threads.
+pub fn has_thread_cycle(control: &Control, cycle: ThreadCycle) -> bool {
+    match control.tables.family {
+        ControlFamily::WordAddress => word_address::thread::has_cycle(cycle),
+        ControlFamily::Sinumerik => cycle == ThreadCycle::Cycle97OfASinumerik,
+        ControlFamily::Klartext => false,
+    }
+}
+
+/// Writes the cycle of one start of a whole thread, from where the tool stands clear; of a cycle of
+/// one pass what comes before its passes.
 ///
 /// # Errors
 /// As [`word_address::thread::cycle`]; Klartext has no threads.
-pub fn thread_cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result<bool> {
-    match post.control.tables.family {
-        ControlFamily::WordAddress => word_address::thread::cycle(post, thread, shape, start),
-        ControlFamily::Sinumerik => sinumerik::thread::cycle(post, thread, shape, start),
-        ControlFamily::Klartext => Ok(false),
+pub fn thread_cycle(
+    control: &mut Control,
+    thread: &Thread,
+    shape: &Shape,
+    cycle: ThreadCycle,
+    ends: &Ends,
+) -> Result<()> {
+    match control.tables.family {
+        ControlFamily::WordAddress => {
+            word_address::thread::cycle(control, thread, shape, cycle, ends)
+        }
+        ControlFamily::Sinumerik => sinumerik::thread::cycle(control, thread, shape, ends),
+        ControlFamily::Klartext => refuse("Klartext has no cycle for threads"),
     }
 }
 

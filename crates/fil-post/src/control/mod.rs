@@ -33,6 +33,7 @@ pub mod spindle;
 mod straight_rapid;
 pub(crate) mod tap;
 mod texts;
+pub mod thread_cycle;
 pub mod vectors;
 mod waiting;
 pub mod word_address;

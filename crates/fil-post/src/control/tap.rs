@@ -16,8 +16,8 @@ use super::Control;
 use super::word_address::spindle::speed_in_range;
 use crate::control_state::modal;
 use crate::errors::PostCode;
+use crate::operation::cycle::{Cycle, CycleFeed};
 use crate::operation::{Feed, SpindleSpeed};
-use crate::path::cycle::{Cycle, CycleFeed};
 
 /// Largest share of a pitch that rounding may change.
 pub(super) const SHARE: f64 = 0.0005;

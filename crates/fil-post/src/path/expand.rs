@@ -5,7 +5,6 @@ use fil_machine::axes::AxisSet;
 use fil_machine::locations::{self as loc, CycleBoreOut};
 use fil_machine::modes::INCH;
 
-use super::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use super::rapid;
 use crate::cause::Cause;
 use crate::control::Control;
@@ -14,6 +13,7 @@ use crate::control::word_address::motion::Motion;
 use crate::control::word_address::spindle;
 use crate::control::{family, tap};
 use crate::errors::PostCode;
+use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use crate::operation::{Dwell, Feed, Lead, SpindleSpeed};
 
 /// Drills one hole: rapid to it and to the R level, feed to the bottom (in

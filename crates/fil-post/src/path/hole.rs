@@ -10,7 +10,6 @@ use fil_machine::locations::{
 };
 use fil_machine::modes::FeedMode;
 
-use super::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use super::rotary::Solution;
 use super::{Since, expand, frame, mill_turn, rapid, rapid_turn, rotary, scaled_lead, tip_hole};
 use crate::control::needs::Act;
@@ -23,6 +22,7 @@ use crate::control::word_address::spindle;
 use crate::control::{Control, family};
 use crate::control_state::{Place, modal};
 use crate::errors::PostCode;
+use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use crate::operation::{SpindleSpeed, Target};
 use crate::post::Post;
 

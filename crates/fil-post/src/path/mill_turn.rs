@@ -18,7 +18,6 @@ use fil_machine::modes::FeedMode;
 use fil_machine::{FunctionCode, Letter, letters};
 use nalgebra::{Point3, Vector3};
 
-use super::cycle::{CycleFeed, CycleKind};
 use super::rotary::Solution;
 use super::{feed_rules, functions_of_others, rotary, thread};
 use crate::control::Control;
@@ -29,6 +28,7 @@ use crate::control::word_address::{modes, spindle};
 use crate::control::{family, full_turn};
 use crate::control_state::{ForeignBlock, Meaning, Rotation, Source, modal};
 use crate::errors::PostCode;
+use crate::operation::cycle::{CycleFeed, CycleKind};
 use crate::operation::{
     Arc, Feed, MotionKind, Operation, SideSpindle, Spindle, SpindleTurn, Target,
 };

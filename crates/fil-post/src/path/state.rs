@@ -5,10 +5,11 @@ use fil_machine::axis_chain::Turn;
 use nalgebra::{Point3, Vector3};
 
 use super::{
-    Coming, Cycle, NamedFrames, Statement, Straightness, Transformation, cycle, frame,
-    linearization, long_arc, sense, skip, thread, turned_apart,
+    Coming, NamedFrames, Statement, Straightness, Transformation, frame, linearization, long_arc,
+    sense, skip, thread, turned_apart,
 };
 use crate::cause::Cause;
+use crate::operation::cycle::{AboveHoles, Cycle};
 use crate::operation::{Arc, Feed, NextTools, Target};
 
 /// Where the CL file stands: point and axis, and what its records asked for.
@@ -102,7 +103,7 @@ pub(crate) struct LastMotion {
     pub turned_by_words: bool,
     /// Where the last cycle has left the tip above its holes under tool-tip control, with the
     /// last outputs of X, Y and Z then.
-    pub above_left: Option<(cycle::AboveHoles, [f64; 3])>,
+    pub above_left: Option<(AboveHoles, [f64; 3])>,
 }
 
 /// How the machine turns from motion to motion.

@@ -6,28 +6,18 @@
 //! one pitch farther away from the part each.
 
 use fil_diag::Result;
-use fil_machine::Letter;
 use fil_machine::locations::{self as loc, ThreadCycle, ThreadLeadAlong};
 use nalgebra::Point3;
 
-pub use super::thread_shape::{Shape, least_depth};
 use super::{carry_out as carry, rotary, scaled_lead};
-use crate::control::family;
 use crate::control::needs::Act;
-use crate::control::word_address::osp_thread;
 use crate::control::word_address::spindle::{self, counted};
+use crate::control::{family, thread_cycle, word_address};
 use crate::control_state::{Place, modal};
 use crate::errors::PostCode;
-use crate::operation::{
-    Lead, MotionKind, Operation, SpindleSpeed, Target, Thread, ThreadPasses, ThreadSide,
-};
+use crate::operation::thread_shape::{Ends, Shape};
+use crate::operation::{Lead, MotionKind, Operation, SpindleSpeed, Target, Thread, ThreadSide};
 use crate::post::Post;
-
-/// Where LinuxCNC's G76 says how its passes leave the thread.
-const WAY_OUT: [Letter; 2] = [Letter::of(b'E'), Letter::of(b'L')];
-
-/// Most threads beside each other.
-pub const MOST_STARTS: u32 = 100;
 
 /// The axes that a thread runs along, X and Z.
 pub const AXES: [usize; 2] = [0, 2];
@@ -206,7 +196,8 @@ fn clearance_of(awaited: &Awaited, start: Target, side: ThreadSide) -> f64 {
 /// without code for a thread; what the motions refuse.
 pub fn carry_out(post: &mut Post, thread: &Thread) -> Result<()> {
     check_machine(post)?;
-    let shape = Shape::of(post, thread)?;
+    let least = thread_cycle::least_depth(&post.control);
+    let shape = Shape::of(thread, least, thread_cycle::chamfer(&post.control))?;
     post.path.thread.in_whole = true;
     cut(post, thread, &shape)?;
     post.path.thread.in_whole = false;
@@ -215,10 +206,8 @@ pub fn carry_out(post: &mut Post, thread: &Thread) -> Result<()> {
 
 /// Brings the tool to each start of the thread, cuts it, and brings the tool back.
 fn cut(post: &mut Post, thread: &Thread, shape: &Shape) -> Result<()> {
-    let divides = !matches!(
-        cycle_of(post, thread, shape),
-        ThreadCycle::SinglePasses | ThreadCycle::CycleOfOnePass
-    );
+    let cycle = thread_cycle::cycle_of(&post.control, thread, shape);
+    let divides = !matches!(cycle, ThreadCycle::SinglePasses | ThreadCycle::CycleOfOnePass);
     // A cycle that divides the thread begins clear of its start, a pass where it begins itself.
     let begin = |start: u32| match shape.depths.first() {
         Some(first) if !divides => shape.above(start, *first),
@@ -227,7 +216,9 @@ fn cut(post: &mut Post, thread: &Thread, shape: &Shape) -> Result<()> {
     approach(post, shape, begin(0))?;
     for start in 0..thread.starts {
         to(post, begin(start), MotionKind::Rapid(thread.lead.cause))?;
-        if !family::thread_cycle(post, thread, shape, start)? {
+        if family::has_thread_cycle(&post.control, cycle) {
+            by_cycle(post, thread, shape, cycle, start)?;
+        } else {
             passes(post, thread, shape, start)?;
         }
     }
@@ -395,97 +386,52 @@ fn passes(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result
     Ok(())
 }
 
-/// Brings the tool to where a pass begins, clear of it.
+/// One start by the cycle of the control, from where the tool stands clear.
+fn by_cycle(
+    post: &mut Post,
+    thread: &Thread,
+    shape: &Shape,
+    cycle: ThreadCycle,
+    start: u32,
+) -> Result<()> {
+    let ends = ends_of(post, thread, shape, start)?;
+    family::thread_cycle(&mut post.control, thread, shape, cycle, &ends)?;
+    if cycle != ThreadCycle::CycleOfOnePass {
+        return Ok(());
+    }
+    for depth in &shape.depths {
+        let above = shape.above(start, *depth);
+        to(post, above, MotionKind::Rapid(thread.lead.cause))?;
+        let way = [on_machine(post, above)?, on_machine(post, shape.root_end(*depth))?];
+        word_address::thread::one_pass(&mut post.control, thread, &ends, way)?;
+    }
+    Ok(())
+}
+
+/// Where one start of a thread lies in the machine.
 ///
 /// # Errors
-/// As a rapid motion.
-pub fn go_above(post: &mut Post, thread: &Thread, at: Target) -> Result<()> {
-    to(post, at, MotionKind::Rapid(thread.lead.cause))
+/// A frame that turns the thread out of X and Z.
+fn ends_of(post: &Post, thread: &Thread, shape: &Shape, start: u32) -> Result<Ends> {
+    let begin = on_machine(post, shape.shifted(start))?;
+    let crest = [on_machine(post, shape.crest_of(start))?, on_machine(post, shape.crest[1])?];
+    let root = on_machine(post, shape.root_end(thread.depth))?;
+    let [across, along] = [root[0] - crest[1][0], root[1] - crest[1][1]];
+    if along.abs() > 1e-6 || (across.abs() - thread.depth).abs() > 1e-6 {
+        return PostCode::Thread.err("TRANS turns the thread out of the plane of X and Z");
+    }
+    Ok(Ends { begin, crest, root })
 }
 
 fn to(post: &mut Post, target: Target, kind: MotionKind) -> Result<()> {
     carry(post, Operation::Linear(target, kind))
 }
 
-/// The machine's cycle, where it can say all of the thread; else it is written as single passes, which
-/// are a cycle on an OSP.
-pub fn cycle_of(post: &Post, thread: &Thread, shape: &Shape) -> ThreadCycle {
-    let cycle = post.control.commons.read(loc::THREAD_CYCLE);
-    let cycles = match cycle {
-        ThreadCycle::G71OfAnOsp => [cycle, ThreadCycle::CycleOfOnePass],
-        _ => [cycle, ThreadCycle::SinglePasses],
-    };
-    let says = |cycle: &ThreadCycle| says_thread(post, thread, shape, *cycle);
-    cycles.into_iter().find(says).unwrap_or(ThreadCycle::SinglePasses)
-}
-
-/// A cycle can say all of the thread.
-fn says_thread(post: &Post, thread: &Thread, shape: &Shape, cycle: ThreadCycle) -> bool {
-    let straight = thread.angle == 0.0;
-    match cycle {
-        ThreadCycle::SinglePasses => true,
-        _ if !says_way_out(post, thread, shape, cycle) => false,
-        _ if shape.is_on_face() => false,
-        ThreadCycle::CycleOfOnePass => straight || !shape.leans(),
-        ThreadCycle::CycleOfAllPassesInTwoBlocks => {
-            let angles = [0.0, 29.0, 30.0, 55.0, 60.0, 80.0];
-            angles.contains(&thread.angle) && (straight || !shape.leans()) && is_by_first(thread)
-        }
-        // It has no word for the passes at full depth.
-        ThreadCycle::CycleOfAllPassesInOneBlock => {
-            (straight || !shape.leans()) && shape.follows_roots(thread) && thread.springs <= 1
-        }
-        ThreadCycle::CycleOfAllPassesOfLinuxcnc => !shape.leans() && shape.follows_roots(thread),
-        // Where a pass of it begins along the flank its manual leaves open, and so the unit of
-        // its lead in inches.
-        ThreadCycle::Cycle97OfASinumerik => {
-            let of_positive_x = thread.crest[0].point.x > 0.0;
-            straight
-                && !shape.leans()
-                && of_positive_x
-                && post.control.is_metric()
-                && shape.divides_evenly(thread)
-        }
-        ThreadCycle::G71OfAnOsp => osp_thread::says(&post.control, thread, shape),
-    }
-}
-
-/// The cycle leaves the thread as asked: by the tenths of G76 in two blocks, by E and L of
-/// LinuxCNC, which rise by the height of the thread, or by a parameter of the control that the
-/// machine file tells (`thread.chamfer_tenths`) and an M code switches.
-fn says_way_out(post: &Post, thread: &Thread, shape: &Shape, cycle: ThreadCycle) -> bool {
-    if shape.leaves() == 0.0 {
-        return true;
-    }
-    let tenths = shape.chamfer_in_tenths(thread).filter(|tenths| *tenths > 0);
-    match cycle {
-        ThreadCycle::CycleOfAllPassesInTwoBlocks => tenths.is_some(),
-        ThreadCycle::CycleOfAllPassesOfLinuxcnc => {
-            let is_there = |letter| post.control.tables.addresses.position(letter).is_some();
-            shape.leaves_by_its_height(thread) && WAY_OUT.into_iter().all(is_there)
-        }
-        ThreadCycle::CycleOfOnePass | ThreadCycle::CycleOfAllPassesInOneBlock => {
-            let commons = &post.control.commons;
-            let is_switched = commons.read(loc::THREAD_CHAMFER_ON_CODE).is_some();
-            let of_control = commons.int_opt(loc::THREAD_CHAMFER_TENTHS);
-            is_switched && of_control.is_some() && of_control == tenths.map(u32::cast_signed)
-        }
-        ThreadCycle::SinglePasses | ThreadCycle::Cycle97OfASinumerik | ThreadCycle::G71OfAnOsp => {
-            false
-        }
-    }
-}
-
-/// The cycles of all passes count them from the depth of the first.
-fn is_by_first(thread: &Thread) -> bool {
-    matches!(thread.passes, ThreadPasses::First(_))
-}
-
 /// Positions of X and Z of the machine for a target.
 ///
 /// # Errors
 /// A frame in which the thread does not lie in the plane of X and Z.
-pub fn on_machine(post: &Post, target: Target) -> Result<[f64; 2]> {
+fn on_machine(post: &Post, target: Target) -> Result<[f64; 2]> {
     let (position, _) = rotary::position_of(post, target)?;
     for (number, along) in position.into_iter().take(3).enumerate() {
         post.control.tables.axis(number).check(along)?;

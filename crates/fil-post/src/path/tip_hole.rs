@@ -4,12 +4,12 @@ use fil_diag::Result;
 use fil_machine::locations as loc;
 use nalgebra::{Point3, Vector3};
 
-use super::cycle::{AboveHoles, Cycle, CycleFeed, CycleKind};
 use super::expand::{WayOut, settle_way_out};
 use super::{Since, linear, tip_control};
 use crate::control::family;
 use crate::control::word_address::spindle;
 use crate::errors::PostCode;
+use crate::operation::cycle::{AboveHoles, Cycle, CycleFeed, CycleKind};
 use crate::operation::{Dwell, MotionKind, Target};
 use crate::post::Post;
 

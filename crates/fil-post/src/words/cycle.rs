@@ -16,7 +16,8 @@ use super::{fedrat, thread};
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::Feed;
-use crate::path::cycle::{self, Cycle, CycleFeed, CycleKind, CycleWords};
+use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, CycleWords};
+use crate::path::cycle;
 use crate::post::Post;
 
 /// The minor word of each kind.

@@ -4,7 +4,7 @@
 use fil_machine::locations::{self as loc, CycleBoreOut};
 use fil_machine::modes::{INCH, Unit};
 use fil_post::Post;
-use fil_post::path::cycle::{Cycle, CycleFeed, CycleKind};
+use fil_post::operation::cycle::{Cycle, CycleFeed, CycleKind};
 
 use super::{at_feed, rapid_rate, turns_of};
 use crate::reach::distance;

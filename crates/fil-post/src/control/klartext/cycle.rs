@@ -22,7 +22,7 @@ use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::{Control, tap};
 use crate::control_state::modal;
 use crate::errors::PostCode;
-use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
+use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 
 /// By which 203 lifts to break chips, and 205 stops before the last depth, mm.
 const GAP: f64 = 0.2;

@@ -8,7 +8,7 @@ use nalgebra::Rotation3;
 use super::line::{self, Line};
 use crate::control::Control;
 use crate::control_state::modal;
-use crate::path::euler::Euler;
+use crate::euler::Euler;
 
 /// Begins a plane about the datum; the rotary axes stand there already (STAY). Says how
 /// the plane lies as the line has it.

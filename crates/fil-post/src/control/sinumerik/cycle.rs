@@ -19,8 +19,8 @@ use crate::control::word_address::{modes, motion, spindle};
 use crate::control::{Control, length_plane, line, tap};
 use crate::control_state::modal;
 use crate::errors::PostCode;
+use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use crate::operation::{Feed, SpindleSpeed};
-use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 
 /// Drilling, and drilling with a dwell.
 const DRILL: u16 = 81;

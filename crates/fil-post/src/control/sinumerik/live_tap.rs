@@ -15,8 +15,8 @@ use crate::control::word_address::{motion, spindle};
 use crate::control::{Control, line, tap};
 use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
+use crate::operation::cycle::{Cycle, CycleKind, Hole};
 use crate::operation::{Feed, SpindleSpeed};
-use crate::path::cycle::{Cycle, CycleKind, Hole};
 
 /// Digits after the point of a lead, mm or inch.
 const LEAD_DIGITS: usize = 5;

@@ -8,7 +8,7 @@ use nalgebra::Rotation3;
 use super::put_text;
 use crate::control::Control;
 use crate::control_state::modal;
-use crate::path::euler::Euler;
+use crate::euler::Euler;
 
 /// Turns about X, the new Y and the new Z, axis by axis.
 const X_Y_Z: u32 = 57;

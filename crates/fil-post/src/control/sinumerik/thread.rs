@@ -2,15 +2,14 @@
 
 use fil_diag::Result;
 use fil_machine::letters::{F, IJK};
-use fil_machine::locations::{self as loc, ThreadCycle};
+use fil_machine::locations as loc;
 
 use crate::control::family::refuse;
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::{Control, line, tap};
 use crate::control_state::{Source, VARYING_LEADS_OF_SINUMERIK, modal};
+use crate::operation::thread_shape::{Ends, Shape};
 use crate::operation::{Lead, Thread, ThreadSide};
-use crate::path::thread::{Shape, cycle_of, on_machine};
-use crate::post::Post;
 
 /// Digits after the point of a lead, mm.
 const LEAD_DIGITS: usize = 4;
@@ -47,28 +46,21 @@ pub fn pass(control: &mut Control, motion: &Motion, lead: &Lead, change: f64) ->
     words::pass_by(control, motion, code, &of_lead, lead.cause)
 }
 
-/// Writes CYCLE97 for one start, from where the tool stands clear; false where it can't say all of
-/// the thread. Run-in and run-out are in the points of the thread, and where the cycle leaves the
+/// Writes CYCLE97 for one start, from where the tool stands clear. Run-in and run-out are in the points of the thread, and where the cycle leaves the
 /// tool is not counted on.
 ///
 /// # Errors
-/// A value that does not fit; a frame that turns the thread out of X and Z.
-pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result<bool> {
-    if cycle_of(post, thread, shape) != ThreadCycle::Cycle97OfASinumerik {
-        return Ok(false);
-    }
-    let begin = on_machine(post, shape.crest_of(start))?;
-    let end = on_machine(post, shape.crest[1])?;
-    let clear = on_machine(post, shape.shifted(start))?;
-    words::ready(&mut post.control)?;
-    let control = &mut post.control;
+/// A value that does not fit.
+pub fn cycle(control: &mut Control, thread: &Thread, shape: &Shape, ends: &Ends) -> Result<()> {
+    let [begin, end] = ends.crest;
+    words::ready(control)?;
     control.flush_waiting()?;
     let [x, z] = [0, 2].map(|number: usize| *control.tables.axis(number));
     let length = |letter, value: f64| line::length(control, letter, value).map(|(text, _)| text);
     let diameter = length(x.letter, 2.0 * end[0])?;
     let (from, to) = (length(z.letter, z.value(begin[1])?)?, length(z.letter, z.value(end[1])?)?);
     let depth = length(x.letter, thread.depth)?;
-    let back = length(x.letter, (clear[0] - begin[0]).abs())?;
+    let back = length(x.letter, (ends.begin[0] - begin[0]).abs())?;
     let lead = tap::text(thread.lead.value, LEAD_DIGITS)?;
     let cuts = shape.cuts(thread).len();
     let kind = EQUAL_CHIPS[usize::from(thread.side == ThreadSide::Inside)];
@@ -80,5 +72,5 @@ pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Res
     control.state.doubt_axes();
     control.state.doubt(F);
     control.state.forget(modal::MOTION, Source::Post);
-    Ok(true)
+    Ok(())
 }

@@ -16,8 +16,8 @@ use super::{dwell, modes, spindle};
 use crate::control::{Control, length_plane, sinumerik, tap};
 use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
+use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use crate::operation::{Feed, SpindleSpeed};
-use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 
 /// The code of a cycle; `None` where the machine has none that does all of it, so that
 /// it must be written as single moves.

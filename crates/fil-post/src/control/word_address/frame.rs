@@ -8,7 +8,7 @@ use nalgebra::Rotation3;
 
 use crate::control::Control;
 use crate::errors::PostCode;
-use crate::path::euler::Euler;
+use crate::euler::Euler;
 
 /// Begins a frame about the zero of the program and turns the tool along its Z; the
 /// rotary axes stand there already. Says how the frame lies as the tape has it.

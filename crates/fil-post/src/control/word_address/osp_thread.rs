@@ -16,7 +16,7 @@ use crate::control::Control;
 use crate::control_state::THREAD_OF_OSP;
 use crate::errors::PostCode;
 use crate::operation::Thread;
-use crate::path::thread::Shape;
+use crate::operation::thread_shape::Shape;
 
 /// Depth of the first pass, height of the thread.
 const DEPTHS: [Letter; 2] = [Letter::of(b'D'), Letter::of(b'H')];
@@ -63,16 +63,11 @@ fn depths(control: &Control, thread: &Thread, shape: &Shape) -> Option<[f64; 2]>
     near.into_iter().find(fits).map(|first| [first, height])
 }
 
-/// Writes the block, from where the tool stands clear, to a root that ends at X and Z of the machine.
+/// The block, from where the tool stands clear, to a root that ends at X and Z of the machine.
 ///
 /// # Errors
 /// A value that does not fit its address.
-pub fn write(
-    control: &mut Control,
-    thread: &Thread,
-    shape: &Shape,
-    [x, z]: [f64; 2],
-) -> Result<()> {
+pub fn text(control: &Control, thread: &Thread, shape: &Shape, [x, z]: [f64; 2]) -> Result<String> {
     let Some(depths) = depths(control, thread, shape) else {
         return PostCode::Thread.err("G71 makes other passes than the thread asks for");
     };
@@ -94,6 +89,5 @@ pub fn write(
     for code in INFEED {
         line.function(letters::M, code)?;
     }
-    let text = line.text;
-    control.because(thread.lead.cause, |control| control.write_own_text(&text))
+    Ok(line.text)
 }

@@ -12,12 +12,12 @@ use fil_machine::{FunctionCode, Letter, letters};
 
 use super::motion::{self, Motion};
 use super::{modes, osp_thread};
+use crate::control::thread_cycle::least_depth;
 use crate::control::{Control, program};
 use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
+use crate::operation::thread_shape::{Ends, Shape};
 use crate::operation::{Thread, ThreadPasses};
-use crate::path::thread::{Shape, cycle_of, go_above, least_depth, on_machine};
-use crate::post::Post;
 
 /// L of LinuxCNC's G76: the passes lean at their end.
 const EXIT: f64 = 2.0;
@@ -25,56 +25,65 @@ const EXIT: f64 = 2.0;
 /// Lengths nearer to zero than this are zero, mm or inch.
 const NOTHING: f64 = 1e-9;
 
-/// Writes the cycle of one start, from where the tool stands clear; false where the machine
-/// has none that says all of the thread.
+/// True for the cycles of this family.
+pub fn has_cycle(cycle: ThreadCycle) -> bool {
+    !matches!(cycle, ThreadCycle::SinglePasses | ThreadCycle::Cycle97OfASinumerik)
+}
+
+/// Writes the cycle of one start, from where the tool stands clear; of a cycle of one pass what
+/// comes before the passes.
 ///
 /// # Errors
-/// A value that does not fit its address; a frame that turns the thread out of X and Z.
-pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result<bool> {
-    let cycle = cycle_of(post, thread, shape);
-    if matches!(cycle, ThreadCycle::SinglePasses | ThreadCycle::Cycle97OfASinumerik) {
-        return Ok(false);
-    }
-    let code = post.control.code(loc::THREAD_CYCLE_CODE, "the cycle of a thread")?;
-    let ends = Ends::of(post, thread, shape, start)?;
-    motion::ready(&mut post.control)?;
+/// A value that does not fit its address.
+pub fn cycle(
+    control: &mut Control,
+    thread: &Thread,
+    shape: &Shape,
+    cycle: ThreadCycle,
+    ends: &Ends,
+) -> Result<()> {
+    let code = control.code(loc::THREAD_CYCLE_CODE, "the cycle of a thread")?;
+    motion::ready(control)?;
     // The cycles of a lathe count in the plane in force, which a live tool or a text has left.
-    let begins = program::state_at_start(&post.control.commons, None);
-    let other = post.control.state.get(modal::PLANE).filter(|plane| *plane != Plane::Zx);
+    let begins = program::state_at_start(&control.commons, None);
+    let other = control.state.get(modal::PLANE).filter(|plane| *plane != Plane::Zx);
     if begins.get(modal::PLANE).or(other).is_some() {
-        modes::plane_of_its_own(&mut post.control, Plane::Zx)?;
+        modes::plane_of_its_own(control, Plane::Zx)?;
     }
-    if cycle != ThreadCycle::CycleOfAllPassesOfLinuxcnc {
-        motion::lead_mode(&mut post.control, thread.lead.cause)?;
+    let of_linuxcnc = cycle == ThreadCycle::CycleOfAllPassesOfLinuxcnc;
+    if !of_linuxcnc {
+        motion::lead_mode(control, thread.lead.cause)?;
     }
     // A lead is a way a turn.
-    post.control.tables.format_feed(FeedMode::PerRevolution);
-    post.control.flush_waiting()?;
+    control.tables.format_feed(FeedMode::PerRevolution);
+    control.flush_waiting()?;
     let leaves = shape.leaves();
-    if cycle != ThreadCycle::CycleOfAllPassesOfLinuxcnc {
-        switch_way_out(&mut post.control, thread, leaves > 0.0)?;
+    if !of_linuxcnc {
+        switch_way_out(control, thread, leaves > 0.0)?;
     }
-    match cycle {
-        ThreadCycle::SinglePasses | ThreadCycle::Cycle97OfASinumerik => return Ok(false),
-        ThreadCycle::CycleOfOnePass => one_pass_each(post, thread, (shape, start), (&ends, code))?,
+    let cuts = Cuts::of(control, thread, shape, ends);
+    let lines = match cycle {
+        ThreadCycle::SinglePasses
+        | ThreadCycle::Cycle97OfASinumerik
+        | ThreadCycle::CycleOfOnePass => return Ok(()),
         ThreadCycle::CycleOfAllPassesInTwoBlocks => {
             let tenths = shape.chamfer_in_tenths(thread).unwrap_or(0);
-            two_blocks(post, thread, tenths, (&ends, code))?;
+            two_blocks(control, thread, tenths, (ends, &cuts, code))?
         }
-        ThreadCycle::CycleOfAllPassesInOneBlock => one_block(post, thread, &ends, code)?,
-        ThreadCycle::CycleOfAllPassesOfLinuxcnc => linuxcnc(post, thread, leaves, (&ends, code))?,
-        ThreadCycle::G71OfAnOsp => osp_thread::write(&mut post.control, thread, shape, ends.root)?,
-    }
-    let [x, z] = ends.begin;
-    match cycle {
-        ThreadCycle::SinglePasses | ThreadCycle::CycleOfOnePass => {}
-        // LinuxCNC leaves the tool clear of the end of the thread.
+        ThreadCycle::CycleOfAllPassesInOneBlock => {
+            vec![one_block(control, thread, (ends, &cuts, code))?]
+        }
         ThreadCycle::CycleOfAllPassesOfLinuxcnc => {
-            stands_at(&mut post.control, [x, ends.root[1]])?;
+            vec![linuxcnc(control, thread, leaves, (ends, &cuts, code))?]
         }
-        _ => stands_at(&mut post.control, [x, z])?,
-    }
-    Ok(true)
+        ThreadCycle::G71OfAnOsp => vec![osp_thread::text(control, thread, shape, ends.root)?],
+    };
+    control.because(thread.lead.cause, |control| {
+        lines.iter().try_for_each(|line| control.write_own_text(line))
+    })?;
+    let [x, z] = ends.begin;
+    // LinuxCNC leaves the tool clear of the end of the thread.
+    stands_at(control, [x, if of_linuxcnc { ends.root[1] } else { z }])
 }
 
 /// Says whether the cycles leave a thread before its end, on a machine that switches it by M
@@ -88,11 +97,8 @@ fn switch_way_out(control: &mut Control, thread: &Thread, leaves: bool) -> Resul
     })
 }
 
-/// Where the thread lies in the machine, X and Z, X as a radius.
-struct Ends {
-    begin: [f64; 2],
-    crest: [[f64; 2]; 2],
-    root: [f64; 2],
+/// What the words of the cycles say of the passes.
+struct Cuts {
     first: f64,
     least: f64,
     springs: u32,
@@ -100,122 +106,111 @@ struct Ends {
     taper: f64,
 }
 
-impl Ends {
-    fn of(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result<Ends> {
-        let begin = on_machine(post, shape.shifted(start))?;
-        let crest = [on_machine(post, shape.crest_of(start))?, on_machine(post, shape.crest[1])?];
-        let root = on_machine(post, shape.root_end(thread.depth))?;
-        let [across, along] = [root[0] - crest[1][0], root[1] - crest[1][1]];
-        if along.abs() > 1e-6 || (across.abs() - thread.depth).abs() > 1e-6 {
-            return PostCode::Thread.err("TRANS turns the thread out of the plane of X and Z");
-        }
+impl Cuts {
+    fn of(control: &Control, thread: &Thread, shape: &Shape, ends: &Ends) -> Cuts {
         // The control itself makes a pass no shallower than the least depth, if it has one.
         let first = match thread.passes {
             ThreadPasses::First(first) => first.min(thread.depth),
             ThreadPasses::Count(_) => shape.depths.first().copied().unwrap_or(thread.depth),
         };
-        let least = least_depth(post);
-        let taper = post.control.tables.axis(0).length(crest[0][0] - crest[1][0]);
-        Ok(Ends { begin, crest, root, first, least, springs: thread.springs, taper })
+        let least = least_depth(control);
+        Cuts { first, least, springs: thread.springs, taper: taper(control, ends) }
     }
 }
 
-/// G92 X Z R F for each pass.
-fn one_pass_each(
-    post: &mut Post,
+fn taper(control: &Control, ends: &Ends) -> f64 {
+    control.tables.axis(0).length(ends.crest[0][0] - ends.crest[1][0])
+}
+
+/// G92 X Z R F: one pass of a start, from where the tool stands to an end in X and Z of the
+/// machine, and back.
+///
+/// # Errors
+/// A value that does not fit its address.
+pub fn one_pass(
+    control: &mut Control,
     thread: &Thread,
-    (shape, start): (&Shape, u32),
-    (ends, code): (&Ends, FunctionCode),
+    ends: &Ends,
+    [begin, end]: [[f64; 2]; 2],
 ) -> Result<()> {
-    let taper = Some(ends.taper).filter(|taper| taper.abs() > NOTHING);
+    let code = control.code(loc::THREAD_CYCLE_CODE, "the cycle of a thread")?;
+    let taper = Some(taper(control, ends)).filter(|taper| taper.abs() > NOTHING);
     let letter = match taper {
-        Some(_) => Some(post.control.letter(loc::THREAD_TAPER_ADDRESS, "the taper of a thread")?),
+        Some(_) => Some(control.letter(loc::THREAD_TAPER_ADDRESS, "the taper of a thread")?),
         None => None,
     };
-    for depth in &shape.depths {
-        go_above(post, thread, shape.above(start, *depth))?;
-        let end = on_machine(post, shape.root_end(*depth))?;
-        let control = &mut post.control;
-        let position = [end[0], 0.0, end[1], 0.0, 0.0];
-        let at = Motion::new(position, AxisSet::LINEAR, 0);
-        control.because(thread.lead.cause, |control| {
-            control.g_of_record(code);
-            motion::axis_word(control, 0, &at)?;
-            motion::axis_word(control, 2, &at)?;
-            if let (Some(letter), Some(taper)) = (letter, taper) {
-                control.word_rounded(letter, taper, Rounding::Nearest)?;
-                control.state.doubt(letter);
-            }
-            motion::lead_word(control, &thread.lead)?;
-            control.write_block()
-        })?;
-        // Each pass comes back to where it began.
-        let begin = on_machine(post, shape.above(start, *depth))?;
-        stands_at(&mut post.control, begin)?;
-    }
-    Ok(())
+    let position = [end[0], 0.0, end[1], 0.0, 0.0];
+    let at = Motion::new(position, AxisSet::LINEAR, 0);
+    control.because(thread.lead.cause, |control| {
+        control.g_of_record(code);
+        motion::axis_word(control, 0, &at)?;
+        motion::axis_word(control, 2, &at)?;
+        if let (Some(letter), Some(taper)) = (letter, taper) {
+            control.word_rounded(letter, taper, Rounding::Nearest)?;
+            control.state.doubt(letter);
+        }
+        motion::lead_word(control, &thread.lead)?;
+        control.write_block()
+    })?;
+    stands_at(control, begin)
 }
 
 /// G76 P(springs, run-out, angle) Q(least) R(allowance), G76 X Z R P Q F.
 fn two_blocks(
-    post: &mut Post,
+    control: &Control,
     thread: &Thread,
     chamfer: u32,
-    (ends, code): (&Ends, FunctionCode),
-) -> Result<()> {
-    let control = &mut post.control;
+    (ends, cuts, code): (&Ends, &Cuts, FunctionCode),
+) -> Result<Vec<String>> {
     let unit = if control.is_metric() { 1e3 } else { 1e4 };
-    let springs = ends.springs.clamp(1, 99);
-    if springs != ends.springs.max(1) {
+    let springs = cuts.springs.clamp(1, 99);
+    if springs != cuts.springs.max(1) {
         return PostCode::Thread
-            .err(format!("{} passes at full depth, and G76 has 99", ends.springs));
+            .err(format!("{} passes at full depth, and G76 has 99", cuts.springs));
     }
     let mut setup = Line::new(control, code)?;
     setup.raw('P', &format!("{springs:02}{chamfer:02}{:02}", thread.angle as u32));
-    setup.raw('Q', &steps(ends.least, unit, false)?);
+    setup.raw('Q', &steps(cuts.least, unit, false)?);
     setup.raw('R', "0");
     let mut cut = Line::new(control, code)?;
     cut.axis(0, ends.root[0])?;
     cut.axis(2, ends.root[1])?;
-    if ends.taper.abs() > NOTHING {
-        cut.word('R', ends.taper, Rounding::Nearest)?;
+    if cuts.taper.abs() > NOTHING {
+        cut.word('R', cuts.taper, Rounding::Nearest)?;
     }
     cut.raw('P', &steps(thread.depth, unit, true)?);
-    cut.raw('Q', &steps(ends.first, unit, true)?);
+    cut.raw('Q', &steps(cuts.first, unit, true)?);
     cut.lead('F', thread.lead.value)?;
-    let (setup, cut) = (setup.text, cut.text);
-    control.because(thread.lead.cause, |control| {
-        control.write_own_text(&setup)?;
-        control.write_own_text(&cut)
-    })
+    Ok(vec![setup.text, cut.text])
 }
 
 /// G76 X Z I K D A F.
-fn one_block(post: &mut Post, thread: &Thread, ends: &Ends, code: FunctionCode) -> Result<()> {
-    let control = &mut post.control;
+fn one_block(
+    control: &Control,
+    thread: &Thread,
+    (ends, cuts, code): (&Ends, &Cuts, FunctionCode),
+) -> Result<String> {
     let mut line = Line::new(control, code)?;
     line.axis(0, ends.root[0])?;
     line.axis(2, ends.root[1])?;
-    if ends.taper.abs() > NOTHING {
-        line.word('I', ends.taper, Rounding::Nearest)?;
+    if cuts.taper.abs() > NOTHING {
+        line.word('I', cuts.taper, Rounding::Nearest)?;
     }
     line.word('K', thread.depth, Rounding::Lead)?;
-    line.word('D', ends.first, Rounding::Rate)?;
+    line.word('D', cuts.first, Rounding::Rate)?;
     line.word('A', thread.angle, Rounding::Nearest)?;
     line.lead('F', thread.lead.value)?;
-    let text = line.text;
-    control.because(thread.lead.cause, |control| control.write_own_text(&text))
+    Ok(line.text)
 }
 
 /// LinuxCNC's G76 P Z I J R K Q H: I, J and K count as X does. E is the way along Z on which each
 /// pass rises by the whole height, L2 that it does so at the end.
 fn linuxcnc(
-    post: &mut Post,
+    control: &Control,
     thread: &Thread,
     leaves: f64,
-    (ends, code): (&Ends, FunctionCode),
-) -> Result<()> {
-    let control = &mut post.control;
+    (ends, cuts, code): (&Ends, &Cuts, FunctionCode),
+) -> Result<String> {
     let axis = *control.tables.axis(0);
     let x = |radius: f64| axis.value(radius);
     let drive = x(ends.begin[0])?;
@@ -226,17 +221,16 @@ fn linuxcnc(
     line.lead('P', thread.lead.value)?;
     line.axis(2, ends.root[1])?;
     line.word('I', crest - drive, Rounding::Nearest)?;
-    line.word('J', (ends.first * factor).abs(), Rounding::Rate)?;
+    line.word('J', (cuts.first * factor).abs(), Rounding::Rate)?;
     line.word('R', 2.0, Rounding::Nearest)?;
     line.word('K', (root - crest).abs(), Rounding::Lead)?;
     line.word('Q', thread.angle / 2.0, Rounding::Nearest)?;
-    line.word('H', f64::from(ends.springs), Rounding::Exact)?;
+    line.word('H', f64::from(cuts.springs), Rounding::Exact)?;
     if leaves > 0.0 {
         line.word('E', leaves, Rounding::Lead)?;
         line.word('L', EXIT, Rounding::Exact)?;
     }
-    let text = line.text;
-    control.because(thread.lead.cause, |control| control.write_own_text(&text))
+    Ok(line.text)
 }
 
 /// A length in smallest steps, without a point.

@@ -19,7 +19,7 @@ use crate::control::word_address::motion::Motion;
 use crate::control_state::Rotation;
 use crate::errors::PostCode;
 use crate::operation::Feed;
-use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
+use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use crate::path::{expand, rapid};
 
 /// The code of a hole of a live tool; `None` where the machine has none, or the hole is

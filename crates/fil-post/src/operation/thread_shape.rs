@@ -1,14 +1,13 @@
 //! Where the passes of a whole thread lie: its directions, levels and depths.
 
 use fil_diag::Result;
-use fil_machine::locations as loc;
-use fil_machine::modes::INCH;
 use nalgebra::Vector3;
 
-use super::thread::MOST_STARTS;
+use super::{Target, Thread, ThreadPasses, ThreadSide};
 use crate::errors::PostCode;
-use crate::operation::{Target, Thread, ThreadPasses, ThreadSide};
-use crate::post::Post;
+
+/// Most threads beside each other.
+pub const MOST_STARTS: u32 = 100;
 
 /// Most passes of one thread.
 const MOST_PASSES: usize = 1000;
@@ -38,11 +37,12 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// The shape of a thread.
+    /// The shape of a thread whose passes each go deeper by `least` (mm or inch) or more, and leave
+    /// it on a way of `chamfer` leads.
     ///
     /// # Errors
     /// Values that make none.
-    pub(super) fn of(post: &Post, thread: &Thread) -> Result<Shape> {
+    pub fn of(thread: &Thread, least: f64, chamfer: f64) -> Result<Shape> {
         let [start, end] = thread.crest.map(|target| target.point);
         if (end - start).norm() < NOTHING {
             return PostCode::Thread.err("the crest begins where it ends");
@@ -74,8 +74,8 @@ impl Shape {
         let rises = way.dot(&out).max(-farthest.dot(&out)).max(0.0);
         let clearance = thread.clearance + rises;
         check_axis(thread, clearance)?;
-        let depths = depths(post, thread)?;
-        let leaves = chamfer(post) * thread.lead.value;
+        let depths = depths(thread, least)?;
+        let leaves = chamfer * thread.lead.value;
         let above_end = clearance - way.dot(&out);
         let highest = leaves - depths.first().copied().unwrap_or(0.0);
         if leaves > along.abs() - NOTHING || highest > above_end {
@@ -118,13 +118,13 @@ impl Shape {
     }
 
     /// Where a pass of this depth begins.
-    pub(super) fn begin(&self, start: u32, depth: f64) -> Target {
+    pub fn begin(&self, start: u32, depth: f64) -> Target {
         let along = depth * self.flank - self.away(start);
         self.beside(self.crest[0], self.slant * along - self.out * depth)
     }
 
     /// A point beside the thread, moved to the clear level.
-    pub(super) fn clear_of(&self, target: Target) -> Target {
+    pub fn clear_of(&self, target: Target) -> Target {
         let up = (self.shifted(0).point - target.point).dot(&self.out);
         self.beside(target, self.out * up)
     }
@@ -142,7 +142,7 @@ impl Shape {
 
     /// Where a pass of this depth has left the thread at 45 degrees; `None` where it goes to the
     /// end.
-    pub(super) fn left(&self, depth: f64) -> Option<Target> {
+    pub fn left(&self, depth: f64) -> Option<Target> {
         let along = self.slant.component_mul(&self.axis_mask());
         let way = (along + self.out) * self.leaves;
         (self.leaves > 0.0).then(|| self.beside(self.end(-depth), way))
@@ -264,14 +264,14 @@ fn check_axis(thread: &Thread, clearance: f64) -> Result<()> {
 ///
 /// # Errors
 /// More passes than a thread can have.
-fn depths(post: &Post, thread: &Thread) -> Result<Vec<f64>> {
+fn depths(thread: &Thread, least: f64) -> Result<Vec<f64>> {
     let mut depths = match thread.passes {
         ThreadPasses::Count(count) => {
             let share = |pass: u32| (f64::from(pass) / f64::from(count)).sqrt();
             let most = count.min(MOST_PASSES as u32 + 1);
             (1..=most).map(|pass| thread.depth * share(pass)).collect()
         }
-        ThreadPasses::First(first) => by_first(thread.depth, first, least_depth(post)),
+        ThreadPasses::First(first) => by_first(thread.depth, first, least),
     };
     depths.extend((0..thread.springs.min(MOST_PASSES as u32)).map(|_| thread.depth));
     if depths.len() > MOST_PASSES {
@@ -295,15 +295,14 @@ fn by_first(depth: f64, first: f64, least: f64) -> Vec<f64> {
     depths
 }
 
-/// What each pass goes deeper at least, mm or inch.
-pub fn least_depth(post: &Post) -> f64 {
-    let least = post.control.commons.dbl_opt(loc::THREAD_LEAST_DEPTH).unwrap_or(0.0).max(0.0);
-    if post.control.is_metric() { least } else { least / INCH }
-}
-
-/// The way on which a pass leaves the thread, in leads.
-fn chamfer(post: &Post) -> f64 {
-    post.control.commons.dbl_opt(loc::THREAD_CHAMFER).unwrap_or(0.0).max(0.0)
+/// Where one start of a thread lies in the machine, X and Z, X as a radius.
+pub struct Ends {
+    /// Clear of the crest, where the tool begins.
+    pub begin: [f64; 2],
+    /// Where its crest begins and ends.
+    pub crest: [[f64; 2]; 2],
+    /// The end of the crest, moved down to the full depth.
+    pub root: [f64; 2],
 }
 
 #[cfg(test)]
