@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use fil_cl::{Options, Reader, Record, Vocabulary};
-use fil_diag::{Code, CodeKind, Diag};
+use fil_diag::{CodeKind, Diag, Level, Levels};
 use fil_syntax::SyntaxCode;
 use fil_vm::errors::CompileCode;
 use fil_vm::{CommonKind, EMPTY, FilFile, Host, Interpreter, Limits, LoadOptions, Site, load};
@@ -130,8 +130,11 @@ pub fn fight_over(case: &Case, oracle_fil: &str) -> Result<Agreed, String> {
     let limits = Limits { fuel: FUEL, ..Limits::default() };
     // Both read alike what a user would have to allow.
     let codes = SyntaxCode::ALL.iter().chain(CompileCode::ALL);
-    let allow: Vec<&'static Code> = codes.filter(|code| code.kind == CodeKind::Doubt).collect();
-    let options = LoadOptions { limits, allow: &allow, ..LoadOptions::default() };
+    let mut levels = Levels::default();
+    codes
+        .filter(|code| code.kind == CodeKind::Doubt)
+        .for_each(|code| levels.set(code.number, Level::Allow));
+    let options = LoadOptions { limits, levels, ..LoadOptions::default() };
     let module = match load(&[FilFile { name: "case.fil", text: &case.fil }], &mut vocab, options) {
         Ok(loaded) => loaded.module,
         Err(diags) => {

@@ -34,6 +34,8 @@ pub struct Header {
     pub expected: Vec<String>,
     /// Warnings that must come.
     pub warnings: Vec<String>,
+    /// Levels of codes: the code, `all` or `profile`, and the level.
+    pub levels: Vec<(String, String)>,
     /// The refusal that must come.
     pub error: Option<String>,
     /// Start and end of the program are written.
@@ -59,6 +61,12 @@ impl Header {
                 "expect" => header.expected.push(indented),
                 "warn" => header.warnings.push(value),
                 "error" => header.error = Some(value),
+                "level" => {
+                    let Some((code, level)) = value.split_once(' ') else {
+                        return Err(format!("`{value}` is no level of a code"));
+                    };
+                    header.levels.push((code.to_string(), level.to_string()));
+                }
                 "whole" => header.whole = true,
                 "note" => {}
                 other => return Err(format!("unknown header line `{other}`")),
@@ -84,6 +92,9 @@ impl Header {
         let bare = bare.iter().copied().chain(plane);
         for setting in bare.chain(self.settings.iter().map(String::as_str)) {
             builder = builder.set(setting);
+        }
+        for (code, level) in &self.levels {
+            builder = builder.set(&format!("levels.{code}={level}"));
         }
         if !self.fil.is_empty() {
             builder = builder.fil("header", &format!("{}\nFINI\n", self.fil.join("\n")));

@@ -78,6 +78,9 @@ pub enum LevelProfile {
 }
 
 impl LevelProfile {
+    /// Both of them.
+    pub const ALL: [LevelProfile; 2] = [LevelProfile::Careful, LevelProfile::Legacy];
+
     /// Its name in `[levels]`.
     pub const fn name(self) -> &'static str {
         match self {
@@ -91,8 +94,7 @@ impl FromStr for LevelProfile {
     type Err = ();
 
     fn from_str(name: &str) -> Result<Self, ()> {
-        let all = [LevelProfile::Careful, LevelProfile::Legacy];
-        all.into_iter().find(|profile| profile.name() == name).ok_or(())
+        LevelProfile::ALL.into_iter().find(|profile| profile.name() == name).ok_or(())
     }
 }
 

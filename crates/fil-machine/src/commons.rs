@@ -4,7 +4,7 @@
 //! and writes them, and the post reads its behaviour from them at the moment it
 //! acts. Locations are 1-based, as in option files.
 
-use fil_diag::Result;
+use fil_diag::{Levels, Result};
 
 use crate::errors::MachineCode;
 use crate::letter::Letter;
@@ -81,6 +81,8 @@ pub struct Commons {
     without_effect: Vec<String>,
     /// Work offsets that a program may choose where no CL file asks for one.
     allowed_offsets: Vec<String>,
+    /// Levels of findings that the machine sets.
+    levels: Levels,
     /// Letters that were given a tape position and no digits: bit n is letter n of the alphabet.
     wants_digits: u32,
 }
@@ -95,6 +97,7 @@ impl Commons {
             generation: 0,
             without_effect: Vec::new(),
             allowed_offsets: Vec::new(),
+            levels: Levels::default(),
             wants_digits: 0,
         }
     }
@@ -144,6 +147,16 @@ impl Commons {
         if !self.without_effect.contains(&word) {
             self.without_effect.push(word);
         }
+    }
+
+    /// Levels of findings that the machine sets: `[levels]`.
+    pub fn levels(&self) -> &Levels {
+        &self.levels
+    }
+
+    /// The same, to be changed.
+    pub fn levels_mut(&mut self) -> &mut Levels {
+        &mut self.levels
     }
 
     /// Work offsets by their names in a program (`G54`, `G54.1P3`), in capitals, that a

@@ -73,7 +73,7 @@ fil_diag::codes! {
             "In a mirror, and seen from below, the tool would cut on the other side of the path.",
             "Let the CAM system mirror the path, its compensation with it, or take CUTCOM with a FIL section that says the side on the tape.";
         /// Compensation that is lost.
-        CompensationLost = 521, Error, "cutter compensation is no longer certain",
+        CompensationLost = 521, Doubt, "cutter compensation is no longer certain",
             "A text that can't be read may have switched it, and saying it again would begin it anew.",
             "Put the text before CUTCOM or after CUTCOM / OFF.";
         /// Something in a cycle.
@@ -217,7 +217,7 @@ fil_diag::codes! {
             "The tool does not lie square to the plane in which the control compensates it, so that the path would be shifted along the tool, into the part: a head leans it, a table has turned the plane that CUTCOM names, or the plane of the program is another one.",
             "Leave the plane out where the tool stands along Z of the control, name the plane that it is square to where a head has turned it, or let the CAM system compensate.";
         /// A word that an edit takes out, or changes, and that can't be said again.
-        EditedWord = 545, Error, "an editing macro changes what the post goes on from",
+        EditedWord = 545, Doubt, "an editing macro changes what the post goes on from",
             "A macro (_OUTPTP, _MCDWT) or REPLAC takes a word out of a block or changes it. Most words are said again by the next block that needs them; this one can't be: what follows would be carried out as if it stood.",
             "Let the macro leave the word as it is, or put another of its kind in its place; take the record with a FIL section where the program shall be without it.";
         /// A second frame in one file.

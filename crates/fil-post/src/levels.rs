@@ -3,8 +3,9 @@
 //! `DOUBTS` is the one table of default levels. Every doubt of the post goes through
 //! `Control::doubt`.
 
-use fil_diag::{Code, Diag, Level, LevelProfile, Levels, Result, Severity};
+use fil_diag::{Code, CodeKind, Diag, Level, LevelProfile, Levels, Result, Severity};
 
+use crate::cause::{Cause, FilLine};
 use crate::control::Control;
 use crate::control_state::modal::Source;
 use crate::errors::PostCode;
@@ -43,6 +44,10 @@ const DOUBTS: &[(PostCode, Defaults)] = &[
     (PostCode::UnknownTurn, Defaults::DANGER),
     // A motion without the tool length offset.
     (PostCode::LengthTaken, Defaults::DANGER),
+    // Cutter compensation behind an unreadable block.
+    (PostCode::CompensationLost, Defaults::DANGER),
+    // An output macro or REPLAC took out a word that the post can't restate.
+    (PostCode::EditedWord, Defaults::DANGER),
 ];
 
 /// The default levels of a code; `None` for one that is no doubt of the post.
@@ -60,30 +65,82 @@ fn level_of(levels: &Levels, code: &Code, by: Source) -> Level {
 }
 
 impl Control {
-    /// Reports a doubt at its level. After `Ok` the caller goes on: it restates what it can, and
-    /// the message says what it takes for granted.
+    /// Reports a doubt at its level. After `Ok` the caller goes on as `assumed` says, which a
+    /// warning tells.
     ///
     /// # Errors
     /// The doubt, where its level is deny, and one of a code that is always an error.
     #[cold]
-    #[expect(clippy::boxed_local, reason = "diagnostics are made and returned boxed")]
-    pub(crate) fn doubt(&mut self, by: Source, diag: Box<Diag>) -> Result<()> {
+    pub(crate) fn doubt(&mut self, by: Source, diag: Box<Diag>, assumed: &str) -> Result<()> {
         let level = level_of(&self.warnings.levels, diag.code, by);
-        match diag.at_level(level) {
-            None => Ok(()),
-            Some(diag) if diag.severity == Severity::Error => Err(Box::new(diag)),
-            Some(diag) => {
-                self.warnings.add_made(diag);
+        self.report(by, level, diag, assumed)
+    }
+
+    /// Reports a doubt about an author's block that leads no tool through the part: the post
+    /// outputs again what it needs, or needs nothing. It warns where no level is set.
+    ///
+    /// # Errors
+    /// As [`Control::doubt`].
+    #[cold]
+    pub(crate) fn mild_doubt(&mut self, diag: Box<Diag>, assumed: &str) -> Result<()> {
+        let level = self.warnings.levels.of(diag.code, Level::Warn);
+        self.report(Source::Author, level, diag, assumed)
+    }
+
+    fn report(
+        &mut self,
+        by: Source,
+        level: Level,
+        mut diag: Box<Diag>,
+        assumed: &str,
+    ) -> Result<()> {
+        let author = self.warnings.author.filter(|_| by == Source::Author);
+        if author.is_some_and(|author| self.allows_at(author, diag.code)) {
+            return Ok(());
+        }
+        if diag.code.kind == CodeKind::Doubt {
+            diag.notes.push(how_to_allow(diag.code));
+        }
+        match level {
+            Level::Allow => Ok(()),
+            Level::Deny => {
+                diag.severity = Severity::Error;
+                self.warnings.denied = author;
+                Err(diag)
+            }
+            Level::Warn => {
+                diag.severity = Severity::Warning;
+                diag.message = format!("{}; {assumed}", diag.message);
+                match author {
+                    Some(author) => self.warnings.add_of_author(*diag, author),
+                    None => self.warnings.add_made(*diag),
+                }
                 Ok(())
             }
         }
     }
+
+    /// A comment at the author's line of FIL, or at the top of its file, allows the code.
+    fn allows_at(&self, author: Cause, code: &Code) -> bool {
+        let lines = &self.warnings.allowed_lines;
+        self.tape.stacks.lines(author.stack).iter().any(|line| {
+            let file = FilLine { line: 0, ..*line };
+            let codes = [line, &file].map(|line| lines.get(line));
+            codes.into_iter().flatten().flatten().any(|number| *number == code.number)
+        })
+    }
+}
+
+/// The line that accepts a doubt.
+fn how_to_allow(code: &Code) -> String {
+    let name = code.name();
+    format!(
+        "if it is right as it is: --allow {name}, or [levels] {name} = \"allow\" in machine.toml"
+    )
 }
 
 #[cfg(test)]
 mod tests {
-    use fil_diag::CodeKind;
-
     use super::*;
 
     #[test]

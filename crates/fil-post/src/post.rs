@@ -2,7 +2,7 @@
 
 use fil_cl::Record;
 use fil_cl::vocabulary::Vocabulary;
-use fil_diag::{Diag, Result};
+use fil_diag::Result;
 use fil_machine::Commons;
 use fil_machine::locations as loc;
 use fil_machine::modes::{FeedMode, Unit};
@@ -218,11 +218,6 @@ impl Post {
     /// post tells them by `path.ahead.motions` before the record.
     pub fn looks_ahead_for_axes(&self) -> bool {
         self.control.tables.chain().has_rotary() && self.control.commons.read(loc::REPOS_OPTIMISE)
-    }
-
-    /// Takes the warnings away.
-    pub fn take_warnings(&mut self) -> Vec<Diag> {
-        self.control.take_warnings()
     }
 
     /// True when lengths or feeds were given: a change of the unit would leave them

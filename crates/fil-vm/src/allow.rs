@@ -5,7 +5,7 @@
 use std::cell::OnceCell;
 use std::collections::HashMap;
 
-use fil_diag::{Code, CodeKind, Diag};
+use fil_diag::{Code, CodeKind, Diag, Level, Levels};
 
 use crate::compile::files::Unit;
 use crate::errors::LintCode;
@@ -15,9 +15,9 @@ pub fn is_allowable(code: &Code) -> bool {
     code.kind != CodeKind::Error
 }
 
-/// What is allowed in a load: by its caller for all files, by comments in each.
+/// The levels of a load: those of its caller for all files, and comments in each.
 pub(crate) struct Allowed<'a> {
-    codes: &'a [&'static Code],
+    levels: &'a Levels,
     /// The load is a check, which gives no warning that a comment allows. A run gives
     /// those that say how it reads the script.
     checks: bool,
@@ -32,19 +32,45 @@ struct File<'a> {
 }
 
 impl<'a> Allowed<'a> {
-    /// What is allowed in these files.
-    pub fn new(codes: &'a [&'static Code], checks: bool, units: &'a [Unit]) -> Self {
+    /// The levels in these files.
+    pub fn new(levels: &'a Levels, checks: bool, units: &'a [Unit]) -> Self {
         let files = units.iter().map(|unit| File::new(&unit.file.name, &unit.file.text));
-        Allowed { codes, checks, files: files.collect() }
+        Allowed { levels, checks, files: files.collect() }
     }
 
-    /// True for a diagnostic that is allowed; never for an error that can't be.
-    pub fn allows(&self, diag: &Diag) -> bool {
+    /// What the comments allow: the number of the file, the line or 0 for the whole file, and
+    /// the number of the code.
+    pub fn comments(&self) -> Vec<(u16, u32, u16)> {
+        let of_file = |(number, file): (u16, &File<'_>)| {
+            let comments = file.comments();
+            let everywhere = comments.everywhere.iter().map(|code| (0, code));
+            let lines = comments.lines.iter();
+            let lines = lines.flat_map(|(line, codes)| codes.iter().map(|code| (*line, code)));
+            let all = everywhere.chain(lines);
+            all.filter_map(|(line, code)| Some((number, line, code.get(1..)?.parse().ok()?)))
+                .collect::<Vec<_>>()
+        };
+        (0..).zip(&self.files).flat_map(of_file).collect()
+    }
+
+    /// The diagnostic at its level; `None` where it is allowed.
+    pub fn at_level(&self, diag: Diag) -> Option<Diag> {
+        let level = self.level(&diag);
+        diag.at_level(level)
+    }
+
+    /// The level of a diagnostic.
+    pub fn level(&self, diag: &Diag) -> Level {
+        let level = self.levels.of_code(diag.code);
+        match self.is_allowed_by_comment(diag) {
+            true => Level::Allow,
+            false => level,
+        }
+    }
+
+    fn is_allowed_by_comment(&self, diag: &Diag) -> bool {
         if !is_allowable(diag.code) {
             return false;
-        }
-        if self.codes.contains(&diag.code) {
-            return true;
         }
         let is_finding = LintCode::ALL.iter().any(|code| code == diag.code);
         if !self.checks && !diag.is_error() && !is_finding {
@@ -150,8 +176,8 @@ mod tests {
         Comments::read(text).allow(&diag(LintCode::UnusedLabel, line))
     }
 
-    fn allowed(codes: &[&'static Code], text: &str, diag: &Diag) -> bool {
-        Allowed { codes, checks: false, files: vec![File::new("a.fil", text)] }.allows(diag)
+    fn level(levels: &Levels, text: &str, diag: &Diag) -> Level {
+        Allowed { levels, checks: false, files: vec![File::new("a.fil", text)] }.level(diag)
     }
 
     #[test]
@@ -171,13 +197,19 @@ mod tests {
 
     #[test]
     fn only_errors_of_scripts_that_can_run_are_allowed() {
+        let none = Levels::default();
+        let mut allowed = Levels::default();
+        allowed.set_all(Level::Allow);
         let open = diag(CompileCode::OpenAroundRecord, 1);
-        assert!(allowed(&[], "IF(A)THEN $$ filpost: allow E0223\n", &open));
-        assert!(!allowed(&[], "IF(A)THEN $$ filpost: allow W0223\n", &open));
-        assert!(allowed(&[open.code], "", &open));
+        let comment = "IF(A)THEN $$ filpost: allow E0223\n";
+        assert_eq!(level(&none, comment, &open), Level::Allow);
+        assert_eq!(level(&none, "IF(A)THEN $$ filpost: allow W0223\n", &open), Level::Deny);
+        assert_eq!(level(&allowed, "", &open), Level::Allow);
         let own = diag(CompileCode::OwnReading, 1);
-        assert!(!allowed(&[], "X=POSTF(5) $$ filpost: allow W0218\n", &own), "a run says it");
+        let comment = "X=POSTF(5) $$ filpost: allow W0218\n";
+        assert_eq!(level(&none, comment, &own), Level::Warn, "a run says it");
         let label = diag(CompileCode::UnknownLabel, 1);
-        assert!(!allowed(&[label.code], "JUMPTO/LA $$ filpost: allow E0201\n", &label));
+        let comment = "JUMPTO/LA $$ filpost: allow E0201\n";
+        assert_eq!(level(&allowed, comment, &label), Level::Deny);
     }
 }

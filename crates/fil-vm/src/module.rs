@@ -124,6 +124,9 @@ pub(crate) enum Constant {
 pub struct Module {
     /// The files, in the order they were read.
     pub files: Vec<File>,
+    /// What comments allow of doubts while the script runs: the number of the file, the line or 0
+    /// for the whole file, and the number of the code.
+    pub allowed: Vec<(u16, u32, u16)>,
     /// All code.
     pub(crate) chunks: Vec<Chunk>,
     /// Chunks of the global areas, in the order they run.

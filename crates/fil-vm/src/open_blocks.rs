@@ -7,7 +7,7 @@
 use fil_cl::record::kind;
 use fil_cl::vocabulary::words as w;
 use fil_cl::{Vocabulary, WordId};
-use fil_diag::{Code, Diag};
+use fil_diag::{Code, Diag, Level};
 use fil_syntax::SyntaxCode;
 use fil_syntax::tree::{Expr, ExprKind, Item, Section, SectionKey, Span, Stmt, StmtKind};
 
@@ -32,7 +32,7 @@ pub(crate) fn refuse(search: Search<'_>, allowed: &Allowed<'_>, diags: &mut [Dia
                 let Some(sent) = search.sent_in_block(number, section, *span) else { continue };
                 let place = unit.file.place(*span);
                 let mut error = Diag::new(CompileCode::OpenAroundRecord, String::new()).at(place);
-                if allowed.allows(&error) {
+                if allowed.level(&error) == Level::Allow {
                     continue;
                 }
                 let is_it = |diag: &&mut Diag| {

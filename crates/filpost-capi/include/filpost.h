@@ -361,6 +361,17 @@ struct filpost_error *filpost_builder_strict(struct filpost_builder *builder, bo
 struct filpost_error *filpost_builder_allow(struct filpost_builder *builder, const char *code);
 
 /*
+ Sets the level of a code, `E0532` or `all`: `allow`, `warn` or `deny`. Levels of single codes
+ win over that of all, and both over those of the machine.
+
+ # Safety
+ `builder` is live; `code` and `level` end with a NUL.
+ */
+struct filpost_error *filpost_builder_level(struct filpost_builder *builder,
+                                            const char *code,
+                                            const char *level);
+
+/*
  Bounds what a run may use up: `fuel` (steps of a section), `call_depth`, `array_elements`,
  `text_bytes` or `output_bytes`.
 

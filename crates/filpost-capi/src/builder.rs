@@ -180,6 +180,26 @@ pub unsafe extern "C" fn filpost_builder_allow(
     })
 }
 
+/// Sets the level of a code, `E0532` or `all`: `allow`, `warn` or `deny`. Levels of single codes
+/// win over that of all, and both over those of the machine.
+///
+/// # Safety
+/// `builder` is live; `code` and `level` end with a NUL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn filpost_builder_level(
+    builder: *mut Builder,
+    code: *const c_char,
+    level: *const c_char,
+) -> *mut Error {
+    guarded(|| {
+        // SAFETY: the caller promises what `text` asks for.
+        let (code, level) = unsafe { (pointer::text(code, "code")?, pointer::text(level, "level")?) };
+        let (of, level) = filpost::level_named(code, level).map_err(|diag| Wrong::diag(*diag))?;
+        // SAFETY: the caller promises what `change` asks for.
+        unsafe { change(builder, |builder| builder.level(of, level)) }
+    })
+}
+
 /// Bounds what a run may use up: `fuel` (steps of a section), `call_depth`, `array_elements`,
 /// `text_bytes` or `output_bytes`.
 ///

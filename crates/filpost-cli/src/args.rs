@@ -1,5 +1,6 @@
 //! The command line.
 
+mod levels;
 mod machine;
 mod plot;
 mod test;
@@ -10,10 +11,11 @@ use std::path::PathBuf;
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use filpost::CodePage;
 use filpost::cl::ClDialect;
-use filpost::{Code, Moment, Unit};
+use filpost::{Moment, Unit};
 
 use crate::version;
 
+pub use levels::LevelArgs;
 pub use machine::{MachineArgs, MachineCommand};
 pub use plot::{PlotArgs, Seen};
 pub use test::{Shard, TestArgs};
@@ -104,9 +106,9 @@ pub struct Reading {
     /// Refuse extensions of filpost, so that a script stays portable
     #[arg(long)]
     pub strict: bool,
-    /// Allow a warning, or an error of FIL that may be meant, by its code (may be given again)
-    #[arg(long, value_name = "CODE", value_parser = allowable)]
-    pub allow: Vec<&'static Code>,
+    /// Levels of codes
+    #[command(flatten)]
+    pub levels: LevelArgs,
     /// Encoding of all input texts (utf-8, cp1251, koi8-r, …); guessed when left out
     #[arg(long, value_name = "LABEL")]
     pub encoding: Option<String>,
@@ -127,10 +129,6 @@ pub struct RawRecords {
     /// carries out what they mean
     #[arg(long)]
     pub raw_records: bool,
-}
-
-fn allowable(name: &str) -> Result<&'static Code, String> {
-    filpost::allowable(name).map_err(|diag| diag.message)
 }
 
 /// The unit of the CL file.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use filpost::check::{self, Options};
-use filpost::{Commons, Compat, Diag, Error, Finding, Program, files, includes};
+use filpost::{Commons, Compat, Diag, Error, Finding, Levels, Program, files, includes};
 use serde_json::Value;
 
 use crate::args::{CheckArgs, Format};
@@ -66,11 +66,18 @@ fn check_group(
     let options = Options {
         compat: compat.clone(),
         strict: args.reading.strict,
-        allow: &args.reading.allow,
+        levels: levels(args, machine),
         includes: Some(&mut includes),
         machine,
     };
     Ok(check::check(&files, options))
+}
+
+/// The levels of the machine, and those of the command over them.
+fn levels(args: &CheckArgs, machine: Option<&Commons>) -> Levels {
+    let mut levels = machine.map(Commons::levels).cloned().unwrap_or_default();
+    levels.lay_over(&args.reading.levels.levels);
+    levels
 }
 
 /// Findings as an array, one object each.

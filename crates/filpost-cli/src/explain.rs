@@ -7,7 +7,7 @@ use filpost::postf::{Grade, POSTF, PostfInfo};
 use filpost::ready::{self, READY};
 use filpost::statements::STATEMENTS;
 use filpost::word_pages;
-use filpost::{Code, Commons, Error, Kind, Severity, dispatch, suggest};
+use filpost::{Code, CodeKind, Commons, Error, Kind, dispatch, suggest};
 
 use crate::errors::CommandCode;
 use crate::{Status, output};
@@ -121,12 +121,14 @@ fn code(name: &str) -> Option<String> {
 }
 
 fn code_text(code: &Code) -> String {
-    let kind = match code.severity() {
-        Severity::Warning => "Warning",
-        Severity::Error => "Error: nothing is written",
+    let kind = match code.kind {
+        CodeKind::Warning => "Warning",
+        CodeKind::Error => "Error: nothing is written",
+        CodeKind::Doubt => "Doubt: it can be done, and may not be what is meant",
     };
+    let level = filpost::level_line(code).map_or_else(String::new, |line| format!("\n{line}"));
     format!(
-        "{}  {}\n\n{kind}.\n{}\n\nWhat to do: {}",
+        "{}  {}\n\n{kind}.{level}\n{}\n\nWhat to do: {}",
         code.name(),
         code.title,
         code.reason,

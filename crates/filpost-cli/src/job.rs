@@ -124,8 +124,7 @@ fn post(
     let name = output::input_name(&job.cl);
     setup::confirm(&from, || Ok(report.machines.clone()), &name)?;
     let warnings = program.warnings().iter().chain(&report.warnings);
-    let allowed = |diag: &&Diag| args.reading.allow.contains(&diag.code);
-    outcome.warnings = warnings.filter(|diag| !allowed(diag)).cloned().collect();
+    outcome.warnings = warnings.cloned().collect();
     deny(args.deny_warnings, outcome.warnings.len())?;
     output::refuse_over(outputs(job, picture), report.script_reads.iter().map(PathBuf::as_path))?;
     refuse_scripts(job, posts.taken(), &inputs, &pending)?;

@@ -212,9 +212,7 @@ pub fn for_run(
     named.take_fil(fil);
     let mut named = named.with_fil(encoding)?;
     named.builder = named.builder.strict(reading.strict);
-    for code in &reading.allow {
-        named.builder = named.builder.allow(code);
-    }
+    named.builder = named.builder.levels(&reading.levels.levels);
     named.builder = named.builder.compat(compat(reading)?);
     named.inputs.extend(reading.compat.clone());
     Ok(named)

@@ -25,6 +25,7 @@ pub struct Parts {
     compat: Option<NamedText>,
     strict: bool,
     allow: Vec<String>,
+    levels: Vec<(String, String)>,
     read: Option<std::path::PathBuf>,
     write: Option<std::path::PathBuf>,
 }
@@ -68,6 +69,11 @@ fn builder(py: Python<'_>, parts: Parts) -> PyResult<Builder> {
     for name in &parts.allow {
         let code = filpost::allowable(name).map_err(|wrong| diag::refused(py, &wrong))?;
         builder = builder.allow(code);
+    }
+    for (code, level) in &parts.levels {
+        let named = filpost::level_named(code, level);
+        let (of, level) = named.map_err(|wrong| diag::refused(py, &wrong))?;
+        builder = builder.level(of, level);
     }
     if let Some(folder) = parts.read {
         builder = builder.grant_read(folder);

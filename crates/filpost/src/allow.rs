@@ -1,21 +1,100 @@
-//! Codes that a user may allow.
+//! Levels by the names of codes: what a user may set, and to what.
 
-use fil_diag::{Code, Diag};
+use fil_diag::{Code, CodeKind, Diag, Level, Levels};
+use fil_post::levels;
 
 use crate::error::{RunCode, all_codes};
 
-/// The code of that name, `W0151` or `E0223`, where it can be allowed: a warning, or an
-/// error of a FIL script that can run but may have been meant otherwise.
+/// What a level is set for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LevelOf {
+    /// All codes that have none of their own.
+    All,
+    /// One code.
+    Code(&'static Code),
+}
+
+impl LevelOf {
+    /// What is named: `all`, or a code whose level can be set.
+    ///
+    /// # Errors
+    /// E0713 for a name that is no code, and for an error that stands.
+    pub fn named(name: &str) -> Result<Self, Box<Diag>> {
+        match name {
+            "all" => Ok(LevelOf::All),
+            _ => allowable(name).map(LevelOf::Code),
+        }
+    }
+
+    /// Sets the level.
+    pub fn set(self, levels: &mut Levels, level: Level) {
+        match self {
+            LevelOf::All => levels.set_all(level),
+            LevelOf::Code(code) => levels.set(code.number, level),
+        }
+    }
+}
+
+/// The code of that name, `W0151` or `E0223`, where its level can be set: a warning, or
+/// a doubt, which can be carried out but may not be what is meant.
 ///
 /// # Errors
 /// E0713 for a name that is no code, and for an error that stands.
 pub fn allowable(name: &str) -> Result<&'static Code, Box<Diag>> {
     let found = all_codes().into_iter().find(|code| code.name().eq_ignore_ascii_case(name));
     match found {
-        Some(code) if fil_vm::is_allowable(code) => Ok(code),
+        Some(code) if code.kind != CodeKind::Error => Ok(code),
         Some(code) => {
-            RunCode::CannotAllow.err(format!("{} ({}) can't be allowed", code.name(), code.title))
+            let message = format!("{} ({}) can't be allowed", code.name(), code.title);
+            let hint = format!("it can't be done, whatever is meant: {}", code.reason);
+            Err(Box::new(RunCode::CannotAllow.diag(message).hint(hint)))
         }
         None => RunCode::CannotAllow.err(format!("there is no code {name}")),
     }
+}
+
+/// A level by the names of its code, or `all`, and its own.
+///
+/// # Errors
+/// E0713 for a code that has no level, and for what is no level.
+pub fn level_named(code: &str, level: &str) -> Result<(LevelOf, Level), Box<Diag>> {
+    let Ok(level) = level.parse::<Level>() else {
+        let message = format!("`{level}` is no level of {code}; one is allow, warn or deny");
+        return RunCode::CannotAllow.err(message);
+    };
+    Ok((LevelOf::named(code)?, level))
+}
+
+/// The levels of a code in a sentence; `None` for one that is no doubt.
+pub fn level_line(code: &Code) -> Option<String> {
+    if code.kind != CodeKind::Doubt {
+        return None;
+    }
+    let name = code.name();
+    let set =
+        format!("`--allow {name}` or `--warn {name}`, or `{name} = \"allow\"` under `[levels]`");
+    let Some(defaults) = levels::defaults(code) else {
+        return Some(format!("Level: {}; {set}, sets another.", Level::Deny));
+    };
+    Some(format!(
+        "Level: {}; of a block that an author wrote {} in the profile `careful` and {} in `legacy`; {set}, \
+         sets another.",
+        defaults.own, defaults.careful, defaults.legacy
+    ))
+}
+
+/// Refuses levels of a machine for codes that there are not, and for errors that stand.
+///
+/// # Errors
+/// E0713
+pub(crate) fn refuse_unknown(levels: &Levels) -> Result<(), Vec<Diag>> {
+    let codes = all_codes();
+    let wrong = levels.of_codes().filter_map(|(number, level)| {
+        let code = codes.iter().find(|code| code.number == number);
+        let name = code.map_or_else(|| format!("E{number:04}"), |code| code.name());
+        let diag = allowable(&name).err()?;
+        Some(diag.note(format!("in [levels]: {name} = \"{level}\"")))
+    });
+    let wrong: Vec<Diag> = wrong.collect();
+    if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }

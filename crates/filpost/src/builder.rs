@@ -5,14 +5,17 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use fil_cl::Vocabulary;
-use fil_diag::{Code, Diag};
+use fil_diag::{Code, Diag, Level, Levels};
 use fil_machine::locations::INPUT_CREO_RECORDS;
 use fil_machine::{Commons, contradictions, files as settings};
+use fil_post::FilLine;
+use fil_post::warnings::AllowedLines;
 use fil_vm::{
     Argument, Edits, FilFile, Functions, Included, Limits, LoadOptions, Loader, MachineFacts,
-    Returned,
+    Module, Returned,
 };
 
+use crate::allow::{self, LevelOf};
 use crate::compat::CompatFile;
 use crate::editing;
 use crate::error::{Error, RunCode};
@@ -52,7 +55,7 @@ pub struct Builder {
     limits: Limits,
     compat: CompatFile,
     strict: bool,
-    allow: Vec<&'static Code>,
+    levels: Levels,
     functions: Functions,
     includes: Option<Includes>,
     clock: Option<Clock>,
@@ -77,7 +80,7 @@ impl Builder {
             limits: Limits::default(),
             compat: CompatFile::default(),
             strict: false,
-            allow: Vec::new(),
+            levels: Levels::default(),
             functions: Functions::new(),
             includes: None,
             clock: None,
@@ -160,11 +163,32 @@ impl Builder {
         self
     }
 
-    /// Allows a code in all FIL files: a warning is not given, and an error of a script
-    /// that can run but may have been meant otherwise does not stop the build. See
-    /// [`crate::allowable`]; other errors are not allowed by it.
-    pub fn allow(mut self, code: &'static Code) -> Self {
-        self.allow.push(code);
+    /// Allows a code: a warning is not given, and a doubt, of a script or of the post, stops
+    /// nothing. See [`crate::allowable`]; other errors are not allowed by it.
+    pub fn allow(self, code: &'static Code) -> Self {
+        self.level(LevelOf::Code(code), Level::Allow)
+    }
+
+    /// Sets the level of a code, or of all: those of single codes win over that of all, and
+    /// both over what the machine sets.
+    ///
+    /// ```
+    /// use filpost::{Level, LevelOf, Program};
+    ///
+    /// let program = Program::builder()
+    ///     .ready("fanuc-mill")
+    ///     .level(LevelOf::named("E0532")?, Level::Warn)
+    ///     .build()?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn level(mut self, of: LevelOf, level: Level) -> Self {
+        of.set(&mut self.levels, level);
+        self
+    }
+
+    /// Sets several levels, and the profile where these choose one.
+    pub fn levels(mut self, levels: &Levels) -> Self {
+        self.levels.lay_over(levels);
         self
     }
 
@@ -259,6 +283,11 @@ impl Builder {
         let files: Vec<FilFile<'_>> =
             self.fil.iter().map(|(name, text)| FilFile { name, text }).collect();
         let mut includes = self.includes;
+        let mut levels = Levels::default();
+        if let Ok((post, _)) = &post {
+            levels.lay_over(post.control.commons.levels());
+        }
+        levels.lay_over(&self.levels);
         let takes_creo_records =
             post.as_ref().is_ok_and(|(post, _)| post.control.commons.read(INPUT_CREO_RECORDS));
         let edits = post
@@ -271,7 +300,7 @@ impl Builder {
                 compat: self.compat.readings,
                 limits: self.limits,
                 strict: self.strict,
-                allow: &self.allow,
+                levels: levels.clone(),
                 facts: MachineFacts { takes_creo_records, edits, ..MachineFacts::default() },
                 functions: Some(&self.functions),
                 loader: includes.as_mut().map(|loader| loader as Loader<'_>),
@@ -279,14 +308,17 @@ impl Builder {
                 ..LoadOptions::default()
             },
         );
-        let ((prototype, mut warnings), loaded) = match (post, loaded) {
+        let ((mut prototype, mut warnings), loaded) = match (post, loaded) {
             (Ok(post), Ok(loaded)) => (post, loaded),
             (post, loaded) => {
                 let errors = [post.err(), loaded.err()];
                 return Err(Error::Setup(errors.into_iter().flatten().flatten().collect()));
             }
         };
+        warnings = at_levels(warnings, &levels)?;
         warnings.extend(loaded.warnings);
+        prototype.control.warnings.levels = levels;
+        prototype.control.warnings.allowed_lines = Arc::new(allowed_lines(&loaded.module));
         let shared = Shared {
             prototype,
             module: Arc::new(loaded.module),
@@ -328,6 +360,29 @@ impl Builder {
     }
 }
 
+/// What comments of FIL allow while the script runs.
+fn allowed_lines(module: &Module) -> AllowedLines {
+    let mut lines = AllowedLines::new();
+    for (file, line, code) in &module.allowed {
+        lines.entry(FilLine { file: *file, line: *line }).or_default().push(*code);
+    }
+    lines
+}
+
+/// The warnings of a machine at their levels.
+///
+/// # Errors
+/// Those that are denied.
+fn at_levels(warnings: Vec<Diag>, levels: &Levels) -> Result<Vec<Diag>, Error> {
+    let at_level = |diag: Diag| {
+        let level = levels.of_code(diag.code);
+        diag.at_level(level)
+    };
+    let kept: Vec<Diag> = warnings.into_iter().filter_map(at_level).collect();
+    let (errors, kept): (Vec<Diag>, Vec<Diag>) = kept.into_iter().partition(Diag::is_error);
+    if errors.is_empty() { Ok(kept) } else { Err(Error::Setup(errors)) }
+}
+
 /// The post of a machine with settings on top, and the warnings of both.
 ///
 /// # Errors
@@ -339,6 +394,7 @@ fn post(
     without_effect: &[String],
 ) -> Result<(fil_post::Post, Vec<Diag>), Vec<Diag>> {
     let (commons, warnings) = commons_with(machine, over, on_top, without_effect)?;
+    allow::refuse_unknown(commons.levels())?;
     let post = fil_post::Post::new(commons).map_err(|diag| vec![*diag])?;
     Ok((post, warnings))
 }

@@ -1,7 +1,7 @@
 //! Checking FIL files without a CL file.
 
 use fil_cl::{Vocabulary, WordId};
-use fil_diag::{Code, Diag};
+use fil_diag::{Diag, Levels};
 use fil_machine::Letter;
 use fil_machine::address::Addresses;
 use fil_machine::commons::{Commons, LAST_OUTPUT};
@@ -28,8 +28,8 @@ pub struct Options<'a> {
     pub compat: Compat,
     /// Refuse extensions of filpost.
     pub strict: bool,
-    /// Codes that are allowed in all files, see [`crate::allowable`].
-    pub allow: &'a [&'static Code],
+    /// Levels of findings in all files.
+    pub levels: Levels,
     /// Gives the files that INCLUD names; without it INCLUD is refused.
     pub includes: Option<Includes<'a>>,
     /// The machine; without it what depends on one is not looked at.
@@ -66,7 +66,7 @@ pub fn analyze(files: &[(&str, &str)], options: Options<'_>) -> Analysis {
         compat: options.compat,
         strict: options.strict,
         lint: true,
-        allow: options.allow,
+        levels: options.levels,
         facts,
         loader: includes.as_mut().map(|loader| loader as Includes<'_>),
         ..LoadOptions::default()

@@ -83,6 +83,7 @@ impl<'o, 'r> Engine<'o, 'r> {
         let mut more = true;
         while more {
             let step = if debugged { self.advance_debugged() } else { self.advance() };
+            let step = step.and_then(|more| self.refuse_denied(more));
             let step = step.map_err(|first| self.survey(first));
             if observed || !matches!(step, Ok(true)) {
                 self.outside.note_counts();
@@ -150,6 +151,7 @@ impl<'o, 'r> Engine<'o, 'r> {
         }
         let debugged = self.outside.debugger.is_some();
         let result = if debugged { self.advance_debugged() } else { self.advance() };
+        let result = result.and_then(|more| self.refuse_denied(more));
         let result = result.map_err(|first| self.survey(first));
         self.outside.note_counts();
         if let Err(error) = &result {
@@ -176,6 +178,14 @@ impl<'o, 'r> Engine<'o, 'r> {
         }
         nc.write_all(&self.outside.post.control.tape.text).map_err(write_error)?;
         self.outside.give_away_blocks().map_err(Error::Run)
+    }
+
+    /// Refuses a warning of the last record whose level is deny.
+    fn refuse_denied(&mut self, more: bool) -> Result<bool> {
+        match self.outside.denied.take() {
+            Some(denied) => Err(denied),
+            None => Ok(more),
+        }
     }
 
     fn advance(&mut self) -> Result<bool> {
@@ -290,23 +300,29 @@ impl<'o, 'r> Engine<'o, 'r> {
         };
         self.outside.section = None;
         let mut swallowed = outcome.swallowed();
+        let mut taken = !outcome.processed && !outcome.replaced;
         if self.outside.module.compat.section == SectionMode::Process
             && !outcome.processed
             && !outcome.replaced
         {
-            swallowed = false;
+            (swallowed, taken) = (false, false);
             self.outside.look_ahead(&self.record, &mut self.vocabulary)?;
             self.outside.process(&self.record, &self.vocabulary)?;
             self.outside.taken.is_posted(&self.record);
         }
-        self.settle_taken()?;
+        let settled = self.outside.settle_taken();
+        self.at_place(settled)?;
+        if taken {
+            let settled = self.outside.settle_change();
+            self.at_place(settled)?;
+        }
         self.outside.section_done(section, (number, line), swallowed);
         Ok(())
     }
 
-    fn settle_taken(&mut self) -> Result<()> {
-        let settled = self.outside.settle_taken();
-        settled.map_err(|diag| {
+    /// A result that an error leaves with the place of the record.
+    fn at_place(&self, result: Result<()>) -> Result<()> {
+        result.map_err(|diag| {
             let place = self.outside.place(&self.record, &self.vocabulary);
             Box::new(diag.at(place))
         })

@@ -57,8 +57,8 @@ fil_diag::codes! {
             "A record that a program hands over is as a statement would make it: words of the program's vocabulary, finite numbers, texts without control characters, motion with its coordinates.",
             "Make the record with Record::statement, Record::goto or Record::text_command.";
         /// A code that can't be allowed.
-        CannotAllow = 713, Error, "code can't be allowed",
-            "Warnings can be allowed by their code, and errors of FIL scripts that can run but may have been meant otherwise.",
+        CannotAllow = 713, Error, "code has no level",
+            "Warnings have levels, and doubts: findings that can be carried out but may not be what is meant. Other errors stand.",
             "Correct what the error names.";
         /// MACHIN names no post.
         NoPost = 714, Error, "MACHIN names no post",

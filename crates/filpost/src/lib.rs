@@ -78,7 +78,7 @@ pub mod verify;
 pub mod word_pages;
 mod written;
 
-pub use allow::allowable;
+pub use allow::{LevelOf, allowable, level_line, level_named};
 pub use blocks::{Block, Blocks, WordOrigin};
 pub use builder::Builder;
 pub use cancel::CancelToken;
@@ -99,7 +99,7 @@ pub use units::{UnitSource, unit_named};
 
 pub use fil_cl as cl;
 pub use fil_diag::suggest;
-pub use fil_diag::{Code, Diag, Severity, TextSpan};
+pub use fil_diag::{Code, CodeKind, Diag, Level, LevelProfile, Levels, Severity, TextSpan};
 pub use fil_machine::{
     Commons, Kind, Letter, Unit, address, chain_drawing, chains, commons, files as settings,
     locations, stored, tape_style, user_blocks,

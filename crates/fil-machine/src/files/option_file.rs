@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use fil_diag::{Diag, Result, TextSpan};
+use fil_diag::{Diag, LevelProfile, Result, TextSpan};
 
 use crate::commons::{Commons, EMPTY, Kind};
 use crate::errors::MachineCode;
@@ -86,7 +86,10 @@ pub fn read_option_file(file: &str, text: &str) -> Result<OptionFile, Vec<Diag>>
     if let Err(diag) = refuse_a_lathe(file, text) {
         return Err(vec![*diag]);
     }
-    read(vendor_commons(), file, text)
+    let mut read = read(vendor_commons(), file, text)?;
+    // The posts that option files come from took their authors at their word.
+    read.commons.levels_mut().choose(LevelProfile::Legacy);
+    Ok(read)
 }
 
 /// Lays an option file over the settings of a machine, of a lathe too: what the file

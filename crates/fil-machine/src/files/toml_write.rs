@@ -3,6 +3,8 @@
 
 use std::fmt::Write as _;
 
+use fil_diag::Levels;
+
 use crate::commons::{Commons, EMPTY, Kind};
 use crate::locations::{self as loc, Location, default_commons};
 use crate::stored;
@@ -29,7 +31,25 @@ pub fn write_toml(commons: &Commons) -> String {
         let _ = writeln!(out, "verify.allowed_offsets = {:?}", commons.allowed_offsets());
     }
     unnamed(commons, &defaults, &mut out);
+    levels(commons.levels(), &mut out);
     out
+}
+
+/// The levels of findings. A table, so it comes last.
+fn levels(levels: &Levels, out: &mut String) {
+    if levels.is_empty() {
+        return;
+    }
+    out.push_str("[levels]\n");
+    if let Some(profile) = levels.chosen_profile() {
+        let _ = writeln!(out, "profile = \"{}\"", profile.name());
+    }
+    if let Some(level) = levels.all() {
+        let _ = writeln!(out, "all = \"{level}\"");
+    }
+    for (number, level) in levels.of_codes() {
+        let _ = writeln!(out, "E{number:04} = \"{level}\"");
+    }
 }
 
 /// A list of user blocks as texts; what they leave of its locations by number. Blanks

@@ -92,7 +92,7 @@ impl Control {
         };
         let found = editor.words(&mut after, &self.commons)?;
         let warnings = editor.take_warnings();
-        self.warnings.list.extend(warnings);
+        self.warnings.extend(warnings);
         if !found {
             self.warn_no_macro("tape.edit_macro", "_OUTPTP");
         }
@@ -190,7 +190,7 @@ impl Control {
         };
         let found = editor.line(line, &self.commons)?;
         let warnings = editor.take_warnings();
-        self.warnings.list.extend(warnings);
+        self.warnings.extend(warnings);
         if !found {
             self.warn_no_macro("tape.block_macro", "_MCDWT");
         }

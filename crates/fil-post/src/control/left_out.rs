@@ -2,7 +2,7 @@
 //! (INTCOM 4667 and 1920, REPLAC): the post goes on from what is left. What it can say again it
 //! says with the next motion; what it can't is refused, as it would go on as if the word stood.
 
-use fil_diag::Result;
+use fil_diag::{Diag, Result};
 use fil_machine::functions::{Group, LengthOffset, Motion, Origin, SpeedMode, Spindle};
 use fil_machine::letters::{F, G, H, M, N, R, S, T};
 use fil_machine::locations::{self as loc, ControlFamily, CycleReturnCodes, FixtureForm};
@@ -11,7 +11,7 @@ use fil_machine::rounding::Rounding;
 use fil_machine::{FunctionCode, Letter, letters};
 
 use super::{Control, Function};
-use crate::control_state::{Compensation, Length, Meaning, Source, modal};
+use crate::control_state::{Compensation, Length, Meaning, Rotation, Source, modal};
 use crate::errors::PostCode;
 
 /// A word of a block.
@@ -27,6 +27,9 @@ pub(super) enum Maker {
     /// A text: the same, and none of its words was put on the tape by its value.
     Text,
 }
+
+/// What the post takes for granted of a word that an edit has taken out.
+const AS_MEANT: &str = "taken to be in force by other means";
 
 /// A block of the post before and behind the edit.
 #[derive(Clone, Copy)]
@@ -80,20 +83,44 @@ impl Control {
     ///
     /// # Errors
     /// There is one.
-    pub(super) fn refuse_left_out(&self, edit: Edit<'_>) -> Result<()> {
+    pub(super) fn refuse_left_out(&mut self, edit: Edit<'_>) -> Result<()> {
         let text = |(letter, value): Word| format!("{letter}{value}");
         if let Some(word) = edit.lost().find(|word| !self.may_miss(*word, edit)) {
-            return PostCode::EditedWord.err(format!(
+            let diag = PostCode::EditedWord.diag(format!(
                 "{} is taken out of its block, and what follows would go on as if it stood",
                 text(word)
             ));
+            self.doubt_edited(word, edit, diag)?;
         }
-        match edit.changed().find(|word| self.counts_on_value(*word, edit)) {
-            Some(word) => PostCode::EditedWord.err(format!(
+        if let Some(word) = edit.changed().find(|word| self.counts_on_value(*word, edit)) {
+            let diag = PostCode::EditedWord.diag(format!(
                 "{} stands in a block whose values the post goes on from",
                 text(word)
-            )),
-            None => Ok(()),
+            ));
+            self.doubt(Source::Author, diag, AS_MEANT)?;
+        }
+        Ok(())
+    }
+
+    /// Doubts a block without a word. Spindle stop and coolant lead no tool through the part, and a function in place of a cycle is the shop's own.
+    fn doubt_edited(&mut self, word: Word, edit: Edit<'_>, diag: Box<Diag>) -> Result<()> {
+        // The last author is whoever edits the block, and no block of his own is to be shown.
+        self.warnings.author = None;
+        let is_mild = match (word.0, FunctionCode::of_value(word.1)) {
+            (G, Some(code)) => {
+                self.meaning(code) == Meaning::Cycle && edit.put_in(G).next().is_some()
+            }
+            (M, Some(code)) => {
+                let by_sub = self.state.is(modal::MASTER_IS_SUB, true);
+                let turns = self.codes.rotation(code, by_sub);
+                self.codes.auxiliaries(code).all(|row| row.restorable)
+                    && turns.is_none_or(|turns| turns == Rotation::Standing)
+            }
+            _ => false,
+        };
+        match is_mild {
+            true => self.mild_doubt(diag, AS_MEANT),
+            false => self.doubt(Source::Author, diag, AS_MEANT),
         }
     }
 
@@ -109,10 +136,11 @@ impl Control {
             let is_coolant = word.0 == M && code.is_some_and(|code| self.codes.is_coolant(code));
             let is_replaced = edit.put_in(word.0).next().is_some();
             if self.left_out.contains(&word) && !is_coolant && !is_replaced {
-                return PostCode::EditedWord.err(format!(
+                let diag = PostCode::EditedWord.diag(format!(
                     "{}{} is taken out of its block, and again where it is said again",
                     word.0, word.1
                 ));
+                self.doubt_edited(word, edit, diag)?;
             }
             if !self.left_out.contains(&word) {
                 self.left_out.push(word);

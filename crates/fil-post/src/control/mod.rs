@@ -39,7 +39,7 @@ mod waiting;
 pub mod word_address;
 mod writing;
 
-use fil_diag::{Diag, Result};
+use fil_diag::Result;
 use fil_machine::address::no_address;
 use fil_machine::commons::EMPTY;
 use fil_machine::contradictions;
@@ -440,10 +440,5 @@ impl Control {
         if self.commons.last_output(G) == EMPTY {
             self.state.forget(modal::MOTION, Source::Post);
         }
-    }
-
-    /// Takes the warnings away.
-    pub fn take_warnings(&mut self) -> Vec<Diag> {
-        std::mem::take(&mut self.warnings.list)
     }
 }

@@ -77,32 +77,37 @@ impl Control {
     }
 
     /// What must hold for a motion in the part: the length of the tool is in force, or is called
-    /// with the motion. What a position of the machine has ended is called again.
+    /// with the motion. What a position of the machine or an author's block has ended is called
+    /// again where its offset is known.
     ///
     /// # Errors
-    /// A text has taken it off, or changed the tool, and nothing calls the length again: at the
-    /// level of the doubt.
+    /// An author's block canceled it, or changed the tool: at the level of the doubt.
     #[cold]
     pub fn ready_length(&mut self) -> Result<()> {
         let is_called = self.waiting.length_offset.is_some() || self.may_name_tip();
-        let message = match self.state.length() {
+        let length = self.state.length();
+        let what = match length {
             Length::OfAnotherTool => OF_ANOTHER_TOOL,
             _ if is_called => return Ok(()),
             Length::Unsaid | Length::Called => return Ok(()),
             Length::Taken => "a text has taken the length of the tool off",
-            Length::Ended => match self.state.get(modal::LENGTH_OFFSET) {
-                Some(offset) => {
-                    self.await_length(Some((offset, self.block.cause)));
-                    self.state.doubt(self.tables.axis(2).letter);
-                    return Ok(());
-                }
-                None => {
-                    "a position of the machine has ended the length of the tool, and which offset \
-                     it had is not known"
-                }
-            },
+            Length::Ended => {
+                "a position of the machine has ended the length of the tool, and which offset it \
+                 had is not known"
+            }
         };
-        self.doubt_length(message)
+        let Some(offset) = self.offset_to_restate(length) else {
+            return self.doubt_length(what);
+        };
+        if length != Length::Ended {
+            let restated = "it is called with the next motion of Z";
+            self.mild_doubt(PostCode::LengthTaken.diag(what), restated)?;
+        }
+        self.state.set(modal::LENGTH, Length::Ended);
+        self.state.set(modal::LENGTH_OFFSET, offset);
+        self.await_length(Some((offset, self.block.cause)));
+        self.state.doubt(self.tables.axis(2).letter);
+        Ok(())
     }
 
     /// What must hold before tool center point control, which takes up the length by itself: that
@@ -119,10 +124,37 @@ impl Control {
     }
 
     fn doubt_length(&mut self, message: &str) -> Result<()> {
-        self.doubt(Source::Author, PostCode::LengthTaken.diag(message))?;
-        // The author's word: the control has the length that the CL file means.
+        let assumed = "taken to be the length that the CL file counts on";
+        self.doubt(Source::Author, PostCode::LengthTaken.diag(message), assumed)?;
         self.state.set(modal::LENGTH, Length::Unsaid);
         Ok(())
+    }
+
+    /// LOADTL calls the length of its tool by a function with a number, outside of tool center
+    /// point control.
+    pub fn calls_lengths(&self) -> bool {
+        self.codes.calls_lengths && !self.may_name_tip()
+    }
+
+    /// The offset number with which the tool length offset can be called again.
+    fn offset_to_restate(&self, length: Length) -> Option<i64> {
+        let can_be_called = self.calls_lengths();
+        match length {
+            Length::Ended => self.state.get(modal::LENGTH_OFFSET),
+            Length::OfAnotherTool => self.state.get(modal::NAMED_TOOL).filter(|_| can_be_called),
+            _ => self.state.get(modal::LENGTH_OFFSET).filter(|_| can_be_called),
+        }
+    }
+
+    /// An axis whose position is in doubt is taken to be where its last word brought it; the
+    /// next motion outputs it again.
+    pub fn assume_position(&mut self, number: usize) {
+        let letter = self.tables.axis(number).letter;
+        let last = self.state.last_before_empty(letter, self.commons.last_output(letter));
+        match last == EMPTY {
+            true => self.state.last_is_said(letter),
+            false => self.state.stand(letter, last),
+        }
     }
 
     /// The last motion was at feed: the tool may stand in the part.
@@ -154,7 +186,7 @@ impl Control {
         if rises && self.was_at_feed() {
             return match self.commons.read(loc::RAPID_SPLIT) {
                 RapidSplit::OneBlock => refuse_shifted_way(self, number),
-                _ => refuse_unknown(self, number),
+                _ => unknown_height(self, number, Source::Post),
             };
         }
         let letter = self.tables.axis(number).letter;
@@ -167,40 +199,57 @@ impl Control {
     }
 }
 
-/// Refuses a rapid motion across from a height that is not known.
+/// What the post takes for granted of an axis in doubt.
+const STANDS_AS_WRITTEN: &str = "taken to be where its last word says";
+
+/// Doubts a rapid motion across from a height that an author's block left unknown: the axis is
+/// taken to be where its last word brought it.
 ///
 /// # Errors
-/// Always.
-pub fn refuse_unknown<T>(control: &Control, number: usize) -> Result<T> {
+/// The doubt, by its level.
+pub fn cross_unknown(control: &mut Control, number: usize) -> Result<()> {
+    let by = control.state.lost_by(control.tables.axis(number).letter);
+    unknown_height(control, number, by)
+}
+
+fn unknown_height(control: &mut Control, number: usize, by: Source) -> Result<()> {
     let letter = control.tables.axis(number).letter;
-    PostCode::UnknownLevel.err(format!(
+    let diag = PostCode::UnknownLevel.diag(format!(
         "where {letter} stands is not known here: up first could be down, and across first could \
          go through the part"
-    ))
+    ));
+    control.doubt(by, diag, STANDS_AS_WRITTEN)?;
+    control.assume_position(number);
+    Ok(())
 }
 
 /// Refuses a rapid motion of several axes in one block from a cut whose end counts from another
 /// zero.
-fn refuse_shifted_way<T>(control: &Control, number: usize) -> Result<T> {
+fn refuse_shifted_way(control: &mut Control, number: usize) -> Result<()> {
     let letter = control.tables.axis(number).letter;
-    PostCode::UnknownLevel.err_with(
-        format!(
-            "the tool stands in its cut, {letter} counts from another zero since, and all axes go \
-             in one block: their way may lead through the part"
-        ),
+    let diag = PostCode::UnknownLevel.diag(format!(
+        "the tool stands in its cut, {letter} counts from another zero since, and all axes go in \
+         one block: their way may lead through the part"
+    ));
+    let diag = Box::new(diag.hint(
         "Go away from the part with RAPID before the change of the work offset, or put GOHOME or \
          LOADTL behind it.",
-    )
+    ));
+    control.doubt(Source::Post, diag, "taken to be clear of it")
 }
 
-/// Refuses a rapid motion of several axes in one block from a place that is not known.
+/// Doubts a rapid motion of several axes in one block from a position that an author's block left
+/// unknown: the axis is taken to be where its last word brought it.
 ///
 /// # Errors
-/// Always.
-pub fn refuse_unknown_way<T>(control: &Control, number: usize) -> Result<T> {
+/// The doubt, by its level.
+pub fn cross_unknown_way(control: &mut Control, number: usize) -> Result<()> {
     let letter = control.tables.axis(number).letter;
-    PostCode::UnknownLevel.err(format!(
+    let diag = PostCode::UnknownLevel.diag(format!(
         "where {letter} stands is not known here, and all axes go in one block: their way may lead \
          through the part"
-    ))
+    ));
+    control.doubt(control.state.lost_by(letter), diag, STANDS_AS_WRITTEN)?;
+    control.assume_position(number);
+    Ok(())
 }

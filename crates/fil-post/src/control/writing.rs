@@ -228,6 +228,7 @@ impl Control {
     pub fn before_others(&mut self) -> Result<BeforeOthers> {
         self.begin()?;
         self.state.foreign_begins();
+        self.warnings.author_writes(self.tape.cause);
         Ok(BeforeOthers {
             compensated: self.is_compensated(),
             plane: self.state.get(modal::PLANE),

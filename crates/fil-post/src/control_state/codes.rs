@@ -36,7 +36,7 @@ pub struct Codes {
     /// The machine has canned cycles that a code ends.
     has_cycle_end: bool,
     /// The tool length offset is activated by a code.
-    pub(super) calls_lengths: bool,
+    pub(crate) calls_lengths: bool,
     /// A position of the machine cancels the tool length offset of the axis that goes there.
     pub(super) positions_end_lengths: bool,
     /// Tool center point control takes the length of the last LOADTL.

@@ -64,6 +64,8 @@ pub(super) struct Doubts {
     doubtful: LetterSet,
     /// Their axes may have gone anywhere.
     lost: LetterSet,
+    /// Of them, those that the post's own blocks have brought there.
+    lost_by_post: LetterSet,
     /// Their axes stand where they stood, and count from another zero.
     shifted: LetterSet,
     /// A position of the machine has brought their axes clear of the part.
@@ -123,6 +125,18 @@ impl Doubts {
         self.add(letter);
         self.settle(letter);
         self.lost.add(letter);
+        self.lost_by_post.remove(letter);
+    }
+
+    /// The same by a block of the post.
+    pub(super) fn lose_by_post(&mut self, letter: Letter) {
+        self.lose(letter);
+        self.lost_by_post.add(letter);
+    }
+
+    /// True where the post itself has made the position of an axis unknown.
+    pub(super) fn is_lost_by_post(&self, letter: Letter) -> bool {
+        self.lost_by_post.has(letter)
     }
 
     /// The axis has not moved, and counts from another zero.
@@ -271,6 +285,7 @@ impl Doubts {
     pub(super) fn or(&mut self, other: &Doubts) {
         self.doubtful.0 |= other.doubtful.0;
         self.lost.0 |= other.lost.0;
+        self.lost_by_post.0 |= other.lost_by_post.0;
         self.shifted.0 |= other.shifted.0;
         self.clear.0 &= other.clear.0;
         self.changed.0 &= other.changed.0;

@@ -224,9 +224,19 @@ impl ControlState {
         AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.lose(letter));
     }
 
-    /// An axis may have gone anywhere.
+    /// A block of an author may have brought an axis anywhere.
     pub fn loses(&mut self, letter: Letter) {
         self.doubts.lose(letter);
+    }
+
+    /// A block of the post has, which can't tell where.
+    pub fn loses_by_post(&mut self, letter: Letter) {
+        self.doubts.lose_by_post(letter);
+    }
+
+    /// Who has made the position of an axis unknown.
+    pub fn lost_by(&self, letter: Letter) -> Source {
+        if self.doubts.is_lost_by_post(letter) { Source::Post } else { Source::Author }
     }
 
     /// The last output value of a letter is about to be made EMPTY: its axis has moved.
@@ -308,6 +318,9 @@ impl ControlState {
         self.groups.doubt_all(source);
         self.doubts.add_all();
         self.lose_axes();
+        if source != Source::Author {
+            AXIS_LETTERS.into_iter().for_each(|letter| self.loses_by_post(letter));
+        }
     }
 
     /// S may be a surface speed still, or turns by now: nobody has read what came behind it.
@@ -321,6 +334,9 @@ impl ControlState {
     /// A tool is in the spindle now.
     pub fn has_tool(&mut self, tool: Option<i64>) {
         self.groups.set_if_known(TOOL, tool, Source::Author);
+        if tool.is_some() {
+            self.groups.forget(modal::NAMED_TOOL, Source::Post);
+        }
     }
 
     /// The tools with the blocks of block delete run and with them skipped, where it decides

@@ -218,6 +218,8 @@ groups! {
     RETURN_LEVEL / ReturnLevel: FunctionCode = NEVER, Unknown;
     /// The tool in the spindle.
     TOOL / Tool: i64 = NEVER, By(either_stays);
+    /// The tool that an author's T word named since the last tool change of the post.
+    NAMED_TOOL / NamedTool: i64 = NEVER, Unknown;
     /// The offset that was called with it.
     TOOL_OFFSET / ToolOffset: i64 = NEVER, Unknown;
     /// A function changed the tool (M6).

@@ -6,7 +6,9 @@ use fil_machine::modes::Unit;
 use fil_machine::{FunctionCode, Letter, letters};
 
 use super::foreign::{ForeignBlock, TextFrame};
-use super::modal::{CYCLE, DISTANCE, MOTION, TOOL, TOOL_WORD, UNITS, WORK_OFFSET, WORK_PLANE};
+use super::modal::{
+    CYCLE, DISTANCE, MOTION, NAMED_TOOL, TOOL, TOOL_WORD, UNITS, WORK_OFFSET, WORK_PLANE,
+};
 use super::{AXIS_LETTERS, Codes, ControlState, Distance, Meaning, Source};
 
 /// What preparatory functions of others do to where the axes stand.
@@ -190,6 +192,8 @@ impl ControlState {
     /// A word names a tool.
     fn names_tool(&mut self, value: f64, codes: &Codes) {
         self.groups.doubt(TOOL);
+        let named = (!codes.tool_word_has_offset && value.fract() == 0.0).then_some(value as i64);
+        self.groups.set_if_known(NAMED_TOOL, named, Source::Author);
         if codes.tool_word_has_offset {
             self.length_by_tool_word(value);
         }

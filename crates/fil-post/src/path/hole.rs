@@ -13,7 +13,7 @@ use fil_machine::modes::FeedMode;
 use super::rotary::Solution;
 use super::{Since, expand, frame, mill_turn, rapid, rapid_turn, rotary, scaled_lead, tip_hole};
 use crate::control::needs::Act;
-use crate::control::place::refuse_unknown;
+use crate::control::place::cross_unknown;
 use crate::control::sinumerik::live_tap;
 use crate::control::skip::refuse_level;
 use crate::control::word_address::cycle as words;
@@ -334,7 +334,7 @@ fn refuse_unknown_height(
     rises: bool,
 ) -> Result<()> {
     match place {
-        Place::Unknown => refuse_unknown(control, along),
+        Place::Unknown => cross_unknown(control, along),
         Place::LeftToScript(_) => {
             control.cross_forgotten(along);
             Ok(())

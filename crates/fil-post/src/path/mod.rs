@@ -36,6 +36,7 @@ pub(crate) mod sense;
 mod skip;
 mod solution;
 mod state;
+pub mod taken_change;
 pub mod thread;
 mod tip;
 pub mod tip_control;

@@ -10,7 +10,7 @@ use super::rapid_turn;
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
-use crate::control::place::{refuse_unknown, refuse_unknown_way};
+use crate::control::place::{cross_unknown, cross_unknown_way};
 use crate::control::skip::refuse_level;
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::repeat;
@@ -99,7 +99,7 @@ fn look_where_it_begins(control: &mut Control, motion: &Motion) -> Result<()> {
         }
         match place {
             Place::Unknown | Place::LeftToScript(_) if control.state.axes_returned() => {}
-            Place::Unknown => return refuse_unknown_way(control, number),
+            Place::Unknown => cross_unknown_way(control, number)?,
             Place::Shifted(_) => return control.cross_shifted(number, true),
             _ => {
                 control.cross_forgotten(number);
@@ -271,7 +271,10 @@ fn decide_first(control: &mut Control, motion: &Motion, number: usize, up: bool)
         Place::Unknown => {
             let up = number == 2 && up && goes_straight_up(control, motion)?;
             if !up && goes_with_others(control, motion, number)? {
-                return refuse_unknown(control, number);
+                cross_unknown(control, number)?;
+                let last = control.commons.last_output(axis.letter);
+                let last = control.state.last_before_empty(axis.letter, last);
+                return Ok(last != EMPTY && rises_from(last));
             }
             Ok(up)
         }

@@ -10,7 +10,7 @@ use super::rapid_turn;
 use super::tip::{head, tip};
 use crate::cause::Cause;
 use crate::control::Control;
-use crate::control::place::refuse_unknown;
+use crate::control::place::cross_unknown;
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{family, heads};
 use crate::control_state::Place;
@@ -141,13 +141,16 @@ pub(super) fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Res
 ///
 /// # Errors
 /// One stands nobody knows where.
-fn stands(control: &Control, motion: &Motion) -> Result<Position> {
+fn stands(control: &mut Control, motion: &Motion) -> Result<Position> {
     let mut from = Position::default();
     for number in control.tables.present().numbers() {
         from[number] = match control.place(number) {
             Place::At(at) if number < 3 => at,
             Place::At(at) => control.tables.axis(number).near(at, motion.position[number]),
-            _ => return refuse_unknown(control, number),
+            _ => {
+                cross_unknown(control, number)?;
+                control.stands(number).unwrap_or(motion.position[number])
+            }
         };
     }
     Ok(from)
@@ -203,7 +206,7 @@ fn above(chain: &AxisChain, at: &Position, by: f64) -> Position {
 ///
 /// # Errors
 /// It may; it does.
-pub(super) fn refuse_unknown_lean(control: &Control) -> Result<()> {
+pub(super) fn refuse_unknown_lean(control: &mut Control) -> Result<()> {
     if !holds_positions(control) || is_away(control) {
         return Ok(());
     }
@@ -214,7 +217,7 @@ pub(super) fn refuse_unknown_lean(control: &Control) -> Result<()> {
     };
     let mut rotary = AxisSet::ROTARY.and(tables.present()).numbers();
     match rotary.find(is_lost).or_else(|| leaning_behind_a_zero(control)) {
-        Some(number) => refuse_unknown(control, number),
+        Some(number) => cross_unknown(control, number),
         None => Ok(()),
     }
 }

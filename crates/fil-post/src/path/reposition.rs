@@ -274,7 +274,7 @@ impl Plan {
             let given = [a, b, to_a, to_b, place.x, place.y, place.z, axis.x, axis.y, axis.z];
             editor.reposition(&given, &mut ways, &control.commons)?;
             let warnings = editor.take_warnings();
-            control.warnings.list.extend(warnings);
+            control.warnings.extend(warnings);
         }
         let Some(retract) = ways.retract.filter(|length| *length > 0.0) else {
             return PostCode::NoAlternative.err(

@@ -10,7 +10,7 @@ use super::{Since, frame, mill_turn, tip_control, turned_apart};
 use crate::control::Control;
 use crate::control::needs::Act;
 use crate::control::skip::refuse_level;
-use crate::control_state::Place;
+use crate::control_state::{Place, Source};
 use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::post::Post;
@@ -212,8 +212,8 @@ pub(super) fn on_tape(post: &Post) -> [f64; 2] {
 /// # Errors
 /// One may.
 #[cold]
-pub(super) fn refuse_unknown_start(post: &Post) -> Result<()> {
-    let control = &post.control;
+pub(super) fn refuse_unknown_start(post: &mut Post) -> Result<()> {
+    let control = &mut post.control;
     if control.tables.mills() {
         return Ok(());
     }
@@ -221,12 +221,16 @@ pub(super) fn refuse_unknown_start(post: &Post) -> Result<()> {
         let letter = control.tables.axis(number).letter;
         match control.place(number) {
             Place::Unknown => {
-                return PostCode::UnknownTurn
-                    .err(format!("where {letter} stands is not known here"));
+                let message = format!("where {letter} stands is not known here");
+                let by = control.state.lost_by(letter);
+                let assumed = "taken to be where its last word says";
+                control.doubt(by, PostCode::UnknownTurn.diag(message), assumed)?;
+                control.assume_position(number);
             }
             Place::Clear => {
-                return PostCode::UnknownTurn
-                    .err(format!("{letter} stands at a position of the machine"));
+                let message = format!("{letter} stands at a position of the machine");
+                let assumed = "taken to be where the motion begins";
+                control.doubt(Source::Post, PostCode::UnknownTurn.diag(message), assumed)?;
             }
             Place::Between(_) => return refuse_level(control, number),
             _ => {}

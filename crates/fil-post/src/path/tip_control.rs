@@ -268,7 +268,7 @@ pub fn end(control: &mut Control) -> Result<()> {
         match slides {
             _ if goes_up => control.state.clears(axis.letter),
             Some(slides) => control.state.stand(axis.letter, axis.value(slides[number])?),
-            None => control.state.loses(axis.letter),
+            None => control.state.loses_by_post(axis.letter),
         }
     }
     if control.tables.family == ControlFamily::WordAddress {

@@ -20,7 +20,7 @@ mod statements;
 mod texts;
 
 use fil_cl::Vocabulary;
-use fil_diag::{Code, Diag};
+use fil_diag::{Diag, Levels};
 use fil_syntax::tree::{Item, Program, Span};
 
 use crate::allow::Allowed;
@@ -69,8 +69,8 @@ pub struct LoadOptions<'a> {
     pub strict: bool,
     /// Look for what would run but is most likely not meant, see [`LintCode`](crate::errors::LintCode).
     pub lint: bool,
-    /// Codes that are allowed in all files, see [`is_allowable`](crate::is_allowable).
-    pub allow: &'a [&'static Code],
+    /// Levels of findings in all files.
+    pub levels: Levels,
     /// What the lints may ask about the machine.
     pub facts: MachineFacts<'a>,
     /// Functions of the embedding program.
@@ -129,14 +129,14 @@ pub fn analyze(
     vocab: &mut Vocabulary,
     options: LoadOptions<'_>,
 ) -> Analysis {
-    let LoadOptions { compat, limits, strict, lint, allow, facts, functions, loader, debug } =
+    let LoadOptions { compat, limits, strict, lint, levels, facts, functions, loader, debug } =
         options;
     let mut includes = Includes::new(loader);
     for file in files {
         includes.read(file.name, file.text);
     }
     let (units, found, mut diags) = includes.finish();
-    let allowed = Allowed::new(allow, lint, &units);
+    let allowed = Allowed::new(&levels, lint, &units);
     let input = resolve::Input { units: &units, found: &found, vocabulary: vocab, functions };
     let (resolution, names, unresolved) = resolve::resolve(input);
     diags.extend(unresolved);
@@ -166,7 +166,7 @@ pub fn analyze(
     };
     compiler.refuse_functions();
     compiler.run();
-    let Compiler { module, mut diags, slots: Slots { names, .. }, vocab, .. } = compiler;
+    let Compiler { mut module, mut diags, slots: Slots { names, .. }, vocab, .. } = compiler;
     let search = open_blocks::Search {
         units: &units,
         found: &found,
@@ -176,8 +176,8 @@ pub fn analyze(
     };
     open_blocks::refuse(search, &allowed, &mut diags);
     diags.extend(resolve::findings::find(&resolution, &units, vocab, facts));
-    diags.retain(|diag| !allowed.allows(diag));
-    let refused = diags.iter().any(Diag::is_error);
+    diags = diags.into_iter().filter_map(|diag| allowed.at_level(diag)).collect();
+    let mut refused = diags.iter().any(Diag::is_error);
     if lint && !refused {
         let program = lint::Program {
             units: &units,
@@ -187,8 +187,10 @@ pub fn analyze(
             resolution: &resolution,
         };
         let findings = lint::warnings(program, vocab, facts);
-        diags.extend(findings.into_iter().filter(|diag| !allowed.allows(diag)));
+        diags.extend(findings.into_iter().filter_map(|diag| allowed.at_level(diag)));
+        refused = diags.iter().any(Diag::is_error);
     }
+    module.allowed = allowed.comments();
     sort(&mut diags, &units);
     let files = module.files.clone();
     Analysis { files, resolution, module: (!refused).then_some(module), diags }

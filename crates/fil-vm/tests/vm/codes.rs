@@ -1,6 +1,6 @@
 //! One case for each code of the compiler and of the machine.
 
-use fil_diag::Code;
+use fil_diag::{Code, Level, Levels};
 use fil_vm::errors::{CompileCode, LintCode, RunCode};
 use fil_vm::{
     CommonKind, Compat, FilFile, Functions, Limits, LoadOptions, MachineFacts, is_allowable, load,
@@ -74,7 +74,9 @@ fn errors_that_can_be_allowed_are_allowed_by_their_code_only() {
     let codes = |text: &str, allow: &[&'static Code]| -> Vec<u16> {
         let text = format!("{text}\nFINI\n");
         let files = [FilFile { name: "case.fil", text: &text }];
-        let options = LoadOptions { allow, ..LoadOptions::default() };
+        let mut levels = Levels::default();
+        allow.iter().for_each(|code| levels.set(code.number, Level::Allow));
+        let options = LoadOptions { levels, ..LoadOptions::default() };
         let diags = match load(&files, &mut fil_cl::Vocabulary::new(), options) {
             Ok(loaded) => loaded.warnings,
             Err(diags) => diags,

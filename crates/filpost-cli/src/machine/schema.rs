@@ -1,7 +1,7 @@
 //! The JSON schema of `machine.toml`.
 
 use filpost::locations::{Location, TABLE, ValueUnit};
-use filpost::user_blocks;
+use filpost::{Level, LevelProfile, user_blocks};
 use serde_json::{Map, Value, json};
 
 /// The JSON schema of `machine.toml`, from the table of locations.
@@ -24,6 +24,7 @@ pub fn schema() -> Value {
         }
     }
     properties.insert("address".into(), addresses());
+    properties.insert("levels".into(), levels());
     for kind in ["int", "rel", "dbl"] {
         let numbers = json!({"type": "object", "patternProperties": {"^[0-9]+$": number()}});
         inner(&mut properties, "imported").insert(kind.into(), numbers.clone());
@@ -73,6 +74,21 @@ fn setting(row: &Location) -> Value {
         description.push_str(&format!(" {}.", listed.join(", ")));
     }
     json!({"anyOf": forms, "description": description})
+}
+
+/// `[levels]`: the profile, and the level of all codes or of one.
+fn levels() -> Value {
+    let level = json!({"enum": Level::ALL.map(Level::name)});
+    json!({
+        "type": "object",
+        "description": "What happens to findings that may not be what is meant.",
+        "properties": {
+            "profile": {"enum": LevelProfile::ALL.map(LevelProfile::name)},
+            "all": level,
+        },
+        "patternProperties": {"^[EW][0-9]{4}$": level},
+        "additionalProperties": false,
+    })
 }
 
 fn addresses() -> Value {

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use filpost::locations::{TABLE, default_commons};
-use filpost::{Commons, Diag, Error, Kind, Program, ready, stored, user_blocks};
+use filpost::{Commons, Diag, Error, Kind, Levels, Program, ready, stored, user_blocks};
 
 use super::{LETTERS, address, diff};
 use crate::args::Chosen;
@@ -120,6 +120,7 @@ fn differences(out: &mut dyn Write, commons: &Commons) -> io::Result<()> {
         }
     }
     lines.extend(texts(commons));
+    lines.extend(levels(commons.levels()));
     if lines.is_empty() {
         lines.push("all that acts is as on the default machine".into());
     }
@@ -129,6 +130,19 @@ fn differences(out: &mut dyn Write, commons: &Commons) -> io::Result<()> {
         writeln!(out, "\nset, and without effect: {}", names.join(", "))?;
     }
     Ok(())
+}
+
+/// Levels of findings.
+fn levels(levels: &Levels) -> Vec<String> {
+    let line = |name: &str, value: &str| format!("{:<28} {value}", format!("levels.{name}"));
+    let profile = levels.chosen_profile().map(|profile| line("profile", profile.name()));
+    let all = levels.all().map(|level| line("all", level.name()));
+    let codes = filpost::all_codes();
+    let of_codes = levels.of_codes().filter_map(|(number, level)| {
+        let code = codes.iter().find(|code| code.number == number)?;
+        Some(line(&code.name(), level.name()))
+    });
+    profile.into_iter().chain(all).chain(of_codes).collect()
 }
 
 /// The user's blocks.

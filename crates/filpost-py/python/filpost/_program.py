@@ -29,6 +29,7 @@ class _Parts:
     compat: tuple[str, str] | None
     strict: bool
     allow: list[str]
+    levels: list[tuple[str, str]]
     read: str | None
     write: str | None
 
@@ -71,6 +72,8 @@ class Program:
         ``array_elements``, ``text_bytes``, ``output_bytes``
     allow, strict, compat
         as the options of the command
+    levels
+        levels of codes or of ``all``: ``{"E0532": "warn"}``, ``allow``, ``warn`` or ``deny``
     cl_dialect, raw_records, units
         how CL files are read: the CAM system where it is not recognized, records as they
         are written, the unit (``mm`` or ``inch``) of files that do not say it
@@ -94,6 +97,7 @@ class Program:
         compat: Named | None = None,
         strict: bool = False,
         allow: Iterable[str] = (),
+        levels: Mapping[str, str] | None = None,
         cl_dialect: str | None = None,
         raw_records: bool = False,
         units: Unit | None = None,
@@ -114,6 +118,7 @@ class Program:
             compat=None if compat is None else _given.named(compat, "compat.toml"),
             strict=strict,
             allow=_given.texts(allow, "allow"),
+            levels=[(str(code), str(level)) for code, level in (levels or {}).items()],
             read=None if grant_read is None else os.fspath(grant_read),
             write=None if grant_write is None else os.fspath(grant_write),
         )

@@ -2,7 +2,7 @@
 //! program it must give.
 //!
 //! `case.toml`: `cl`; `dialect` (of the CL file, where it is not recognized); `ready`, `machine` (machine.toml) or `option_file`; `fil` (a file or a
-//! list); `set` (list of `key=value`); `compat`; `strict`; `allow`; `read` (a folder for scripts);
+//! list); `set` (list of `key=value`); `compat`; `strict`; `allow`; `[levels]`; `read` (a folder for scripts);
 //! `clock`; `units` (of a CL file without UNITS); `expect` (NC file) or `expect_error` (code); `listing` (its expected text);
 //! `tolerance`, `ignore`, `diameter` (how the NC programs are compared; letter by letter
 //! when none is given); `expect_warnings`; `expect_at` (`file:line` of the error or of the
@@ -14,6 +14,7 @@ mod recipe;
 mod side_by_side;
 mod unified;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
 
@@ -71,6 +72,9 @@ pub struct CaseFile {
     /// Codes that are allowed.
     #[serde(default)]
     pub allow: Vec<String>,
+    /// Levels by code, `all` or `profile`, as in a machine.toml.
+    #[serde(default)]
+    pub levels: BTreeMap<String, String>,
     /// The expected NC program.
     pub expect: Option<String>,
     /// The expected listing.

@@ -1,13 +1,14 @@
 //! What the program of a case is made of, and programs that cases share.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use fil_diag::Diag;
+use fil_diag::{Diag, Levels};
 use fil_vm::{Limits, Moment};
 
 use super::Case;
+use crate::allow::level_named;
 use crate::builder::Builder;
 use crate::error::{Error, RunCode};
 use crate::files;
@@ -29,6 +30,7 @@ pub(super) struct Recipe {
     compat: Option<Named>,
     strict: bool,
     allow: Vec<String>,
+    levels: BTreeMap<String, String>,
     read: Option<PathBuf>,
     clock: Option<String>,
     fuel: Option<u64>,
@@ -94,6 +96,7 @@ impl Recipe {
             compat: file.compat.as_ref().map(text).transpose()?,
             strict: file.strict,
             allow: file.allow.clone(),
+            levels: file.levels.clone(),
             read: file.read.as_ref().map(|folder| case.folder.join(folder)),
             clock: file.clock.clone(),
             fuel: file.fuel,
@@ -112,6 +115,7 @@ impl Recipe {
         for name in &self.allow {
             builder = builder.allow(crate::allowable(name).map_err(Error::setup)?);
         }
+        builder = builder.levels(&levels(&self.levels).map_err(Error::setup)?);
         if let Some(name) = &self.ready {
             builder = builder.ready(name);
         }
@@ -230,6 +234,26 @@ impl Programs {
         drop(built);
         cell.get_or_init(|| recipe.build()).clone()
     }
+}
+
+/// The levels that a case sets.
+///
+/// # Errors
+/// E0713 for a code that has no level, and for what is no level.
+fn levels(said: &BTreeMap<String, String>) -> Result<Levels, Box<Diag>> {
+    let mut levels = Levels::default();
+    for (name, level) in said {
+        if name != "profile" {
+            let (of, level) = level_named(name, level)?;
+            of.set(&mut levels, level);
+            continue;
+        }
+        let Ok(profile) = level.parse() else {
+            return RunCode::CannotAllow.err(format!("`{level}` is no profile of levels"));
+        };
+        levels.choose(profile);
+    }
+    Ok(levels)
 }
 
 #[cfg(test)]

@@ -99,13 +99,21 @@ impl Outside<'_, '_> {
         if matches!(record.major, words::UNITS | words::UNIT) {
             self.report.unit = self.post.unit().map(|unit| (unit, UnitSource::Statement));
         }
-        if result.is_err() || !self.post.control.warnings.list.is_empty() {
+        if result.is_err() || !self.post.control.warnings.is_empty() {
             let place = self.place(record, vocabulary);
             self.take_warnings(Some(&place));
             // The machine itself adds the FIL line to an error.
             let made_by_fil = self.fil_line(record).is_some();
             let result = result.map_err(|diag| self.name_dialects(diag));
-            result.map_err(|diag| if made_by_fil { diag } else { Box::new(diag.at(place)) })?;
+            let author = self.post.control.warnings.denied.take();
+            let author = author.map(|author| self.place_of_author(author));
+            result.map_err(|mut diag| {
+                if !made_by_fil {
+                    diag.spans.push(place);
+                    diag.spans.extend(author.map(|place| place.label("this block leaves it open")));
+                }
+                diag
+            })?;
         }
         if record.kind == kind::MOTION {
             if let Some(point) = self.post.point() {

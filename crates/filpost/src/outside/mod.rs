@@ -92,6 +92,8 @@ pub(crate) struct Outside<'o, 'r> {
     pub spilled: Option<Spilled>,
     /// Who debugs the run.
     pub debugger: Option<SharedDebugger>,
+    /// A warning whose level is deny.
+    pub denied: Option<Box<Diag>>,
     /// The debugger knows of the error that ends the run.
     pub told_failure: bool,
 }
@@ -130,6 +132,7 @@ impl<'o, 'r> Outside<'o, 'r> {
             shown: 0,
             spilled: None,
             debugger,
+            denied: None,
             told_failure: false,
             program,
         }

@@ -1,8 +1,9 @@
 //! Motions of the CL file that a section takes: neither it nor POSTF(13) gives them to the post.
 
 use fil_cl::vocabulary::words;
-use fil_cl::{Record, record::kind};
+use fil_cl::{Record, Word, record::kind};
 use fil_diag::Diag;
+use fil_post::path::taken_change::{self, BeforeSection};
 use fil_post::{Post, WaitsForMotion};
 
 use super::Outside;
@@ -14,6 +15,16 @@ pub(crate) struct Taken {
     motions: Vec<(u32, WaitsForMotion)>,
     /// The point that the post had when the section began.
     from: Option<[f64; 3]>,
+    /// LOADTL at which it began.
+    change: Option<Change>,
+}
+
+/// A tool change of the CL file, before its section ran.
+#[derive(Clone, Copy, Debug)]
+struct Change {
+    tool: i64,
+    offset: i64,
+    before: BeforeSection,
 }
 
 impl Taken {
@@ -40,6 +51,12 @@ impl Outside<'_, '_> {
     /// A section begins with a record.
     pub fn watch_taken(&mut self, record: &Record) {
         self.taken.motions.clear();
+        self.taken.change = match tool_of(record) {
+            Some((tool, offset)) if record.major == words::LOADTL => {
+                Some(Change { tool, offset, before: BeforeSection::new(&self.post) })
+            }
+            _ => None,
+        };
         self.taken.from = self.post.point();
         self.taken.is_current(record, &self.post);
     }
@@ -56,6 +73,32 @@ impl Outside<'_, '_> {
         let mut motions = self.taken.motions.iter();
         motions.try_for_each(|(_, waits)| self.post.motion_is_taken(*waits, is_replaced))
     }
+}
+
+impl Outside<'_, '_> {
+    /// The record with which a section began has not gone to the post.
+    ///
+    /// # Errors
+    /// As [`taken_change::is_taken`].
+    pub fn settle_change(&mut self) -> Result<(), Box<Diag>> {
+        let Some(Change { tool, offset, before }) = self.taken.change.take() else {
+            return Ok(());
+        };
+        taken_change::is_taken(&mut self.post, before, tool, offset)
+    }
+}
+
+/// The tool that LOADTL names, and its length offset: that of OSETNO, else the same number.
+fn tool_of(record: &Record) -> Option<(i64, i64)> {
+    let number = |word: Option<&Word>| match word {
+        Some(Word::Number(value)) if value.fract() == 0.0 => Some(*value as i64),
+        _ => None,
+    };
+    let tool = number(record.data.first())?;
+    let mut items = record.data.iter();
+    let has_offset = items.any(|item| *item == Word::Minor(words::OSETNO));
+    let offset = number(items.next()).filter(|_| has_offset);
+    Some((tool, offset.unwrap_or(tool)))
 }
 
 /// True for a record that RAPID makes rapid, or that ends what RAPID has begun.

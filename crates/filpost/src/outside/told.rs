@@ -3,9 +3,10 @@
 use std::cell::RefCell;
 
 use fil_cl::{Record, Vocabulary};
-use fil_diag::{Code, Diag, TextSpan};
-use fil_post::FilLine;
+use fil_diag::{Code, CodeKind, Diag, Level, TextSpan};
 use fil_post::errors::PostCode;
+use fil_post::warnings::Warning;
+use fil_post::{Cause, FilLine};
 use fil_vm::{OutputMacro, SectionId};
 
 use super::Outside;
@@ -17,16 +18,41 @@ use crate::map;
 use crate::statement::statement_text;
 
 impl Outside<'_, '_> {
-    /// Tells the warnings of the post, which came at this place.
+    /// Tells the warnings of the post, which came at this place; one of a doubt stands at the
+    /// line of the author that left it.
     pub(super) fn take_warnings(&mut self, place: Option<&TextSpan>) {
-        for mut warning in std::mem::take(&mut self.post.control.warnings.list) {
-            warning.spans.extend(place.cloned());
-            self.tell(warning);
+        for Warning { mut diag, author } in self.post.control.warnings.take() {
+            diag.spans.extend(author.map(|author| self.place_of_author(author)));
+            diag.spans.extend(place.cloned());
+            self.tell(diag);
         }
     }
 
-    /// Puts a warning into the report and tells the observers.
+    /// Where an author wrote a block: the line of FIL, or of the CL file.
+    pub(super) fn place_of_author(&self, author: Cause) -> TextSpan {
+        let fil = self.post.control.tape.stacks.lines(author.stack).first();
+        match fil {
+            Some(made) => {
+                let file = &self.module.files[usize::from(made.file)];
+                let text = file.text.lines().nth(made.line.saturating_sub(1) as usize);
+                TextSpan::line(&file.name, made.line, text.unwrap_or_default())
+            }
+            None => TextSpan::line(&self.cl_name, author.line, ""),
+        }
+    }
+
+    /// Puts a warning into the report and tells the observers, at the level of its code; one
+    /// that is denied ends the run behind its record.
     pub(super) fn tell(&mut self, warning: Diag) {
+        let level = match warning.code.kind {
+            CodeKind::Warning => self.post.control.warnings.levels.of_code(warning.code),
+            _ => Level::Warn,
+        };
+        let Some(warning) = warning.at_level(level) else { return };
+        if warning.is_error() {
+            self.denied.get_or_insert_with(|| Box::new(warning));
+            return;
+        }
         for observer in self.observers.iter_mut() {
             observer(Event::Warning(&warning));
         }

@@ -94,6 +94,15 @@ fn every_code_has_its_page_and_every_page_its_code() {
 }
 
 #[test]
+fn a_page_says_the_levels_of_its_code() {
+    for code in all_codes() {
+        let (_, page) = &pages()[&code.name()];
+        let said = page.lines().find(|line| line.starts_with("Level: "));
+        assert_eq!(said, filpost::level_line(code).as_deref(), "{}", code.name());
+    }
+}
+
+#[test]
 fn the_index_lists_every_page() {
     let index = std::fs::read_to_string(root().join("docs/errors/README.md")).expect("the index");
     for code in all_codes() {

@@ -4,10 +4,11 @@
 //! `int.1870 = 1`, `rel.11 = 1.0`, `dbl.486 = 2.0`; `[address.X]` holds `slot`,
 //! `format`, `spec` and `char` of a letter; `blocks.start` and `blocks.end` are
 //! lists of texts, and so are `words.without_effect`, the major words that pass, and
-//! `verify.allowed_offsets`, what a program may choose unasked. A flag takes true or false, a letter or character a text of
+//! `verify.allowed_offsets`, what a program may choose unasked; `[levels]` sets levels of codes. A flag takes true or false, a letter or character a text of
 //! one character, and every setting takes `"none"` for absent.
 
 mod address;
+mod levels;
 mod values;
 
 use std::ops::Range;
@@ -41,6 +42,9 @@ const IMPORTED: &str = "imported.";
 
 /// The key of the chain of axes that comes with the post.
 const CHAIN: &str = "chain";
+
+/// What stands before the codes of levels.
+const LEVELS: &str = "levels.";
 
 /// What messages call the text of a single setting.
 const OPTION: &str = "--set";
@@ -272,6 +276,9 @@ impl<'a> TomlReader<'a> {
             let words = self.texts(value, MOST_WORDS)?;
             words.iter().for_each(|word| commons.list_without_effect(word));
             return Ok(());
+        }
+        if let Some(code) = name.strip_prefix(LEVELS) {
+            return self.level(commons, code, key, value);
         }
         if name == "verify.allowed_offsets" {
             for offset in self.texts(value, MOST_OFFSETS)? {

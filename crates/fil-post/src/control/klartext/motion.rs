@@ -18,7 +18,7 @@ use crate::control::word_address::dwell::known_speed;
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::word_address::repeat as words_of_repeat;
 use crate::control::{Control, Function};
-use crate::control_state::{Compensation, modal};
+use crate::control_state::{Compensation, Source, modal};
 use crate::errors::PostCode;
 use crate::noted::TEXT;
 use crate::operation::Feed;
@@ -178,8 +178,10 @@ pub fn ready(control: &mut Control) -> Result<()> {
     let begun = !control.waiting.has(Function::Compensation);
     let lost = control.state.get(modal::CUTTER_COMP).is_none() && begun;
     if lost && control.compensation_asked() != Compensation::Off {
-        return PostCode::CompensationLost
-            .err("a text that can't be read stands within cutter compensation");
+        let diag = PostCode::CompensationLost
+            .diag("a text that can't be read stands within cutter compensation");
+        control.doubt(Source::Author, diag, "taken to be as CUTCOM has it")?;
+        control.state.set(modal::CUTTER_COMP, control.compensation_asked());
     }
     Ok(())
 }

@@ -9,7 +9,7 @@ use super::line::{self, Line};
 use crate::block::named;
 use crate::control::needs::Act;
 use crate::control::{Control, own_offsets};
-use crate::control_state::{Rotation, modal};
+use crate::control_state::{Rotation, Source, modal};
 use crate::noted::TEXT;
 use crate::operation::ToolChange;
 
@@ -67,6 +67,7 @@ pub fn select(control: &mut Control, tool: i64) -> Result<()> {
         return Ok(());
     }
     control.tools.prepared = Some(tool);
+    control.state.forget(modal::NAMED_TOOL, Source::Post);
     control.begin()?;
     let mut line = Line::default();
     let cause = control.block.cause;

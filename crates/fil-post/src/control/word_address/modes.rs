@@ -10,7 +10,7 @@ use super::compensation;
 use crate::control::needs::Act;
 use crate::control::program::{plane_code, unit_code};
 use crate::control::{Control, Function, length_plane, sinumerik};
-use crate::control_state::{Compensation, Distance, modal};
+use crate::control_state::{Compensation, Distance, Source, modal};
 use crate::errors::PostCode;
 
 /// The modes that an operation brings itself, or goes on in.
@@ -86,11 +86,14 @@ fn say_again(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
     if control.state.get(modal::CUTTER_COMP).is_none() {
         let begun = !control.waiting.has(Function::Compensation);
         if begun && control.compensation_asked() != Compensation::Off {
-            return PostCode::CompensationLost
-                .err("a text that can't be read stands within cutter compensation");
+            let diag = PostCode::CompensationLost
+                .diag("a text that can't be read stands within cutter compensation");
+            control.doubt(Source::Author, diag, "taken to be as CUTCOM has it")?;
+            control.state.set(modal::CUTTER_COMP, control.compensation_asked());
+        } else {
+            say(control, control.code_if_any(loc::CUTCOM_OFF_CODE));
+            control.state.set(modal::CUTTER_COMP, Compensation::Off);
         }
-        say(control, control.code_if_any(loc::CUTCOM_OFF_CODE));
-        control.state.set(modal::CUTTER_COMP, Compensation::Off);
     }
     if let Some(what) = missing.first() {
         return PostCode::NoCode.err(format!("the machine has no code that brings {what} back"));

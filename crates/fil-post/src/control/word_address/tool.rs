@@ -77,6 +77,7 @@ pub fn select(control: &mut Control, tool: i64) -> Result<()> {
         return Ok(());
     }
     control.tools.prepared = Some(tool);
+    control.state.forget(modal::NAMED_TOOL, Source::Post);
     control.word(T, tool as f64)?;
     control.write_block()
 }
