@@ -8,7 +8,7 @@ use super::verifier::Verifier;
 use crate::dialect::{Auxiliary, Function, Role};
 use crate::interpret::sinumerik_words::{self, Value};
 use crate::motion::{Compensation, Speed, Spindle};
-use crate::text::{Block, read_block};
+use crate::text::{Block, Word, read_block};
 
 /// The T word of a turning tool is its number times this, and its offset.
 const TOOLS_STEP: i64 = 100;
@@ -29,11 +29,12 @@ impl Expected {
     /// Takes up what the words of a text switch; of a text that can't be read the program
     /// is refused anyway.
     pub(super) fn insert(&mut self, text: &str, settings: &Settings) {
-        let line = settings.dialect.text.marks.read(text.as_bytes());
+        let mut line = settings.dialect.text.marks.read(text.as_bytes()).into_owned();
         if settings.has_edges() {
-            self.insert_statements(&line);
+            line = self.insert_statements(&line);
         }
         let Ok(block) = read_block(&line, "INSERT", 1) else { return };
+        self.insert_change(&block, settings);
         for word in &block.words {
             let number = word.number;
             match word.letter {
@@ -57,6 +58,20 @@ impl Expected {
         }
     }
 
+    /// The length offset of the tool that a text changes to has its number, where the text calls
+    /// no other.
+    fn insert_change(&mut self, block: &Block, settings: &Settings) {
+        let changes = |word: &Word| {
+            word.letter == b'M'
+                && settings.dialect.auxiliary(word.number.digits) == Auxiliary::ToolChange
+        };
+        let tool = block.words.iter().find(|word| word.letter == b'T');
+        let tool = tool.and_then(|word| u32::try_from(word.number.digits).ok());
+        if settings.calls_offsets() && tool.is_some() && block.words.iter().any(changes) {
+            self.length.require(tool, Due::WithZ);
+        }
+    }
+
     /// S of a text.
     pub(super) fn insert_speed(&mut self, speed: f64, settings: &Settings) {
         // Turns or surface speed: the text need not say it.
@@ -65,8 +80,10 @@ impl Expected {
         self.naming.has_speed = true;
     }
 
-    /// Takes up what a SINUMERIK says by names, and functions that no setting names.
-    fn insert_statements(&mut self, line: &[u8]) {
+    /// Takes up what a SINUMERIK says by names, and functions that no setting names; gives the
+    /// words of one letter.
+    fn insert_statements(&mut self, line: &[u8]) -> Vec<u8> {
+        let mut plain = Vec::new();
         for word in sinumerik_words::read(line).unwrap_or_default() {
             match (word.name.as_str(), &word.value) {
                 ("T", Some(_)) => self.length.require(None, Due::Now),
@@ -83,7 +100,11 @@ impl Expected {
                 ("M", Some(Value::Number(70.0))) => self.insert_stop(),
                 _ => {}
             }
+            if word.name.len() == 1 && !word.assigned {
+                plain.extend_from_slice(&line[word.range]);
+            }
         }
+        plain
     }
 
     /// A text takes the length of the tool off, as on a way to a point of the machine. What the CL
