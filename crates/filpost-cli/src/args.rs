@@ -2,6 +2,7 @@
 
 mod levels;
 mod machine;
+mod names;
 mod plot;
 mod test;
 mod trace;
@@ -49,22 +50,27 @@ pub enum Command {
     Plot(PlotArgs),
     /// Run regression cases (folders with a case.toml)
     Test(TestArgs),
-    /// Tell who made a block, or what a CL record or a line of FIL made
+    /// Show which CL record and FIL line produced a block, or what a record or FIL line produced
     Trace(TraceArgs),
-    /// Explain a code, a POSTF number, a location, a setting, a word or a function
+    /// Explain an error code, a setting, a word, a function, a G or M code, or a ready post
     Explain(ExplainArgs),
+    /// List the ready posts
+    Posts,
     /// Import and show machine settings
     Machine(MachineArgs),
-    /// Post a case at each save, and tell what that changes
+    /// Post a case at each save, and show what has changed
     Watch(WatchArgs),
     /// Serve an editor: the language server, over standard input and output
     Lsp,
     /// Serve an editor: the debugger, over standard input and output
     Dap,
-    /// Make a folder to start an own post from
+    /// Make a folder with the start of your own post
     New(NewArgs),
-    /// Print the manual page
-    Man,
+    /// Print the manual page of filpost or of a command
+    Man {
+        /// A command, such as post
+        command: Option<String>,
+    },
     /// Print completions for a shell
     Completions {
         /// The shell
@@ -76,13 +82,13 @@ pub enum Command {
 #[derive(Debug, Default, ClapArgs)]
 pub struct Chosen {
     /// A ready post by name, or a folder with machine.toml and post.fil
-    #[arg(short, long, value_name = "POST")]
+    #[arg(short, long, value_name = "POST", value_parser = names::post(), hide_possible_values = true)]
     pub post: Option<String>,
     /// machine.toml, or an option file (uncx01.pNN); with --post a machine.toml over its settings
     #[arg(short, long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
     /// One more setting on top (may be given again)
-    #[arg(long, value_name = "KEY=VALUE")]
+    #[arg(long, value_name = "KEY=VALUE", value_parser = names::setting(), hide_possible_values = true)]
     pub set: Vec<String>,
 }
 
@@ -92,18 +98,18 @@ pub struct NewArgs {
     /// The folder to make; nothing of that name may be there
     #[arg(value_name = "FOLDER")]
     pub folder: PathBuf,
-    /// The ready post to begin from (`filpost explain haas-mill` tells of one)
-    #[arg(long, value_name = "POST", default_value = filpost::ready::GENERIC_MILL)]
+    /// The ready post to start from (`filpost posts` lists them)
+    #[arg(long, value_name = "POST", default_value = filpost::ready::GENERIC_MILL, value_parser = names::post(), hide_possible_values = true)]
     pub base: String,
 }
 
 /// How FIL is read.
 #[derive(Debug, ClapArgs)]
 pub struct Reading {
-    /// Readings of POSTF numbers and sections that differ from ours
+    /// File with your site's readings of POSTF numbers and sections, where ours differ
     #[arg(long, value_name = "FILE")]
     pub compat: Option<PathBuf>,
-    /// Refuse extensions of filpost, so that a script stays portable
+    /// Refuse filpost's extensions, to keep a script portable
     #[arg(long)]
     pub strict: bool,
     /// Levels of codes
@@ -125,8 +131,8 @@ pub struct ClReading {
 /// In which form sections see the records of the CL file.
 #[derive(Clone, Copy, Debug, Default, ClapArgs)]
 pub struct RawRecords {
-    /// Give records as the CAM system has written them, not in the form of Creo; the post still
-    /// carries out what they mean
+    /// Pass records to FIL sections as the CAM system wrote them, not converted to Creo's form; the
+    /// post still carries out what they mean
     #[arg(long)]
     pub raw_records: bool,
 }
@@ -173,8 +179,7 @@ pub struct PostArgs {
     /// Write the line map for `filpost trace`; OUT.map when no FILE is given
     #[arg(long, value_name = "FILE")]
     pub map: Option<Option<PathBuf>>,
-    /// Tell where the time goes, by CL word, section and line of FIL; with a FILE draw it as a
-    /// flame graph (SVG) too
+    /// Report the run time by CL word, section and FIL line; with a FILE also as a flame graph (SVG)
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
     pub profile: Option<Option<PathBuf>>,
     /// A folder to look in for the option file that MACHIN names (may be given again)
@@ -183,7 +188,7 @@ pub struct PostArgs {
     /// Write nothing when there are warnings, and exit with 1
     #[arg(long)]
     pub deny_warnings: bool,
-    /// Post the Ith of N parts of the CL files only, such as 2/4: each Nth of them
+    /// Post only every Nth CL file, starting with the Ith (2/4: the 2nd, 6th, 10th …)
     #[arg(long, value_name = "I/N", value_parser = test::shard)]
     pub shard: Option<Shard>,
 }
@@ -197,7 +202,7 @@ pub struct Grants {
     /// The moment DATEF and TIMEF give, as 2026-01-31T12:00:00
     #[arg(long, value_name = "MOMENT", value_parser = moment, conflicts_with = "clock")]
     pub set_clock: Option<Moment>,
-    /// Let DATEF and TIMEF read a clock; the program then differs from run to run
+    /// Let DATEF and TIMEF read the system clock; the program then differs from run to run
     #[arg(long, value_enum)]
     pub clock: Option<ClockSource>,
 }
@@ -242,7 +247,7 @@ pub struct CheckArgs {
     /// Check all files as one post: they share one name space
     #[arg(long)]
     pub together: bool,
-    /// How findings are written
+    /// Format of the findings
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
     #[command(flatten)]
@@ -269,7 +274,7 @@ pub struct FmtArgs {
     /// FIL files, rewritten in place; - reads standard input and writes standard output
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
-    /// Change nothing: name the files that would change, and exit with 1 when there are any
+    /// Change nothing: list the files that would change, and exit with 1 if there are any
     #[arg(long)]
     pub check: bool,
     /// Encoding of the files (utf-8, cp1251, koi8-r, …), which they keep; guessed when left out
@@ -283,8 +288,7 @@ pub struct ClArgs {
     /// The CL file; - reads standard input
     #[arg(required_unless_present = "dialects")]
     pub cl: Option<PathBuf>,
-    /// List the dialects of CL text instead: their names, how they are recognized, and what
-    /// they mean
+    /// List the dialects of CL text instead: their names, how they are recognized, how they are read
     #[arg(long, conflicts_with_all = ["cl", "words", "dialect", "encoding", "units", "raw_records"])]
     pub dialects: bool,
     #[command(flatten)]
@@ -324,16 +328,16 @@ pub struct DiffArgs {
     pub first: PathBuf,
     /// The program that is compared with it
     pub second: PathBuf,
-    /// Lengths and angles that differ by no more are the same
+    /// Largest difference of lengths and angles that is ignored
     #[arg(long, value_name = "STEP", default_value_t = 0.001, value_parser = tolerance)]
     pub tol: f64,
-    /// What is not looked at: n, comments, dates, points, or letters of words
+    /// What to ignore: n, comments, dates, points, spaces or letters of words
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = ignored)]
     pub ignore: Vec<String>,
-    /// Count a modal word that only one program repeats
+    /// Report a modal word that only one of the programs repeats
     #[arg(long)]
     pub modal: bool,
-    /// X is written as a diameter (which arcs of a lathe need)
+    /// X is a diameter (needed to compare arcs of a lathe)
     #[arg(long)]
     pub diameter: bool,
     /// Encoding of both programs (windows-1252, cp850, shift_jis, …)
@@ -372,17 +376,16 @@ pub struct VerifyArgs {
     /// A folder to look in for the option file that MACHIN names (may be given again)
     #[arg(long, value_name = "DIR")]
     pub post_path: Vec<PathBuf>,
-    /// Deviation allowed, mm and degrees; without it only the last digit of each address
+    /// Allowed deviation, mm and degrees; by default the last digit of each address
     #[arg(long, value_name = "MM", value_parser = tolerance)]
     pub tol: Option<f64>,
-    /// How far the tip may leave its line while the machine turns; LINTOL of the CL file when
-    /// left out
+    /// How far the tip may leave its line during a rotary move; by default LINTOL of the CL file
     #[arg(long, value_name = "MM", value_parser = tolerance)]
     pub between: Option<f64>,
-    /// Work offsets that the program may choose where the CL file names none: G54,G54.1P3
+    /// Work offsets that the program may use if the CL file names none: G54,G54.1P3
     #[arg(long, value_name = "OFFSETS", value_delimiter = ',', value_parser = work_offset)]
     pub allow_offset: Vec<u32>,
-    /// How findings are written
+    /// Format of the findings
     #[arg(long, value_enum, default_value_t = Report::Text)]
     pub format: Report,
 }
@@ -432,7 +435,7 @@ pub struct WatchArgs {
 /// `filpost explain`
 #[derive(Debug, ClapArgs)]
 pub struct ExplainArgs {
-    /// E0123 | POSTF 13 | DBLCOM 486 | rapid.split | CYCLE | SQRTF | fanuc-mill
-    #[arg(required = true)]
+    /// E0123 | rapid.split | CYCLE | SQRTF | POSTF 13 | DBLCOM 486 | G83 | fanuc-mill
+    #[arg(required = true, value_parser = names::subject(), hide_possible_values = true)]
     pub subject: Vec<String>,
 }

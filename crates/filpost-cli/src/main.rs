@@ -15,12 +15,14 @@ mod explain;
 mod fmt;
 mod job;
 mod machine;
+mod manual;
 mod new;
 mod output;
 mod plot;
 mod post;
 mod posts;
 mod profile;
+mod ready_posts;
 mod refused;
 mod render;
 mod sarif;
@@ -106,14 +108,8 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Lsp => Ok(served(filpost_lsp::serve_stdio())),
         Command::Dap => Ok(served(filpost_dap::serve_stdio())),
         Command::New(args) => new::run(args),
-        Command::Man => {
-            let mut page = Vec::new();
-            let written =
-                clap_mangen::Man::new(Args::command().long_version(None)).render(&mut page);
-            written.map_err(|error| output::stdout_error(&error))?;
-            output::print(&page)?;
-            Ok(Status::Done)
-        }
+        Command::Posts => ready_posts::run(),
+        Command::Man { command } => manual::run(command.as_deref()),
         Command::Completions { shell } => {
             let mut text = Vec::new();
             clap_complete::generate(*shell, &mut Args::command(), "filpost", &mut text);

@@ -52,7 +52,7 @@ pub fn run(args: &NewArgs) -> Result<Status, Error> {
     write(&args.folder, &content).inspect_err(|_| remove_empty(&args.folder))?;
     let folder = args.folder.display();
     output::print(
-        format!("{folder} is made, from {}; go on with {folder}/README.md\n", base.name).as_bytes(),
+        format!("Created {folder} from {}. Next: {folder}/README.md\n", base.name).as_bytes(),
     )?;
     Ok(Status::Done)
 }

@@ -1,6 +1,6 @@
 //! `filpost plot`
 
-use std::io::{Read, Write};
+use std::io::{IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 
 use filpost::cl::reader::Options;
@@ -32,6 +32,13 @@ pub fn run(args: &PlotArgs) -> Result<Status, Error> {
         output::say("error: the name of the picture must end in .svg or .html");
         return Ok(Status::Usage);
     };
+    if args.output.is_none() && std::io::stdout().is_terminal() {
+        output::say(
+            "error: SVG is not printed on a terminal; name a file: -o plot.html for a page that \
+             zooms, or -o plot.svg",
+        );
+        return Ok(Status::Usage);
+    }
     let bytes = read(&args.file)?;
     let name = output::input_name(&args.file);
     let text = Text { name: &name, bytes: &bytes };

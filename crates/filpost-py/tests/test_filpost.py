@@ -360,7 +360,7 @@ def test_the_notebook_of_the_documentation_runs():
         assert texts[0] == texts[1], cell.source
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/python.md", "crates/filpost-py/README.md"])
+@pytest.mark.parametrize("page", ["docs/embedding.md", "docs/python.md", "crates/filpost-py/README.md"])
 def test_examples_of_the_pages_run(page, capsys):
     """A block `python` runs, and a block `text printed` after it is what it prints."""
     text = (pathlib.Path(__file__).parents[3] / page).read_text()

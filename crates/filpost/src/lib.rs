@@ -101,8 +101,8 @@ pub use fil_cl as cl;
 pub use fil_diag::suggest;
 pub use fil_diag::{Code, CodeKind, Diag, Level, LevelProfile, Levels, Severity, TextSpan};
 pub use fil_machine::{
-    Commons, Kind, Letter, Unit, address, chain_drawing, chains, commons, files as settings,
-    locations, stored, tape_style, user_blocks,
+    Commons, FunctionCode, Kind, Letter, Unit, address, chain_drawing, chains, commons,
+    files as settings, functions, locations, stored, tape_style, user_blocks,
 };
 pub use fil_nc as nc;
 pub use fil_post::{Cause, FilLine, Origin, Stack, dispatch, no_effect};
@@ -113,10 +113,10 @@ pub use fil_vm::{
 };
 pub use fil_vm::{builtins, is_allowable, postf, resolve, statements};
 
-/// The example of the README, run with the documentation tests.
+/// The example of the page about embedding, run with the documentation tests.
 #[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
-struct Readme;
+#[doc = include_str!("../../../docs/embedding.md")]
+struct Embedding;
 
 /// The examples of the crate's own README.
 #[cfg(doctest)]

@@ -12,12 +12,10 @@ pub struct LevelArgs {
 
 fn help(level: Level) -> &'static str {
     match level {
-        Level::Allow => {
-            "Do not report a warning or a doubt, by its code; `all` for all codes (may be given again)"
-        }
-        Level::Warn => "Only warn of a doubt, by its code or `all` (may be given again)",
+        Level::Allow => "Do not report a warning or doubt: its code, or `all` (may be given again)",
+        Level::Warn => "Report a doubt as a warning: its code, or `all` (may be given again)",
         Level::Deny => {
-            "Refuse the program for a warning or a doubt, by its code or `all` (may be given again)"
+            "Refuse the program for a warning or doubt: its code, or `all` (may be given again)"
         }
     }
 }

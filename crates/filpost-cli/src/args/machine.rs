@@ -31,7 +31,7 @@ pub enum MachineCommand {
         #[arg(long, value_name = "LABEL")]
         encoding: Option<String>,
     },
-    /// Show what a machine sets otherwise than the default one; with a prefix or --all every
+    /// Show the settings that differ from the default machine; with a prefix or --all every
     /// setting with value, unit, meaning and evidence
     Show {
         #[command(flatten)]
@@ -39,7 +39,7 @@ pub enum MachineCommand {
         /// Every setting, with value, unit, meaning and evidence
         #[arg(long)]
         all: bool,
-        /// The chain of axes: what turns what, from the part to the tool
+        /// The chain of axes, from the part to the tool
         #[arg(long, conflicts_with_all = ["all", "prefix"])]
         chain: bool,
         /// The chain of axes as an SVG picture
@@ -50,7 +50,7 @@ pub enum MachineCommand {
         #[arg(value_name = "PREFIX|MACHINE")]
         prefix: Option<String>,
     },
-    /// Say in which settings two machines differ
+    /// Show the settings in which two machines differ
     Diff {
         /// A ready post, a folder with machine.toml, a machine.toml or an option file
         first: PathBuf,

@@ -22,7 +22,7 @@ pub struct PlotArgs {
     /// The line map of the program; FILE.map when it is there
     #[arg(long, value_name = "FILE")]
     pub map: Option<PathBuf>,
-    /// The picture, .svg or .html; SVG to standard output when left out
+    /// The picture, .svg or .html; without it SVG goes to standard output if that is no terminal
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// Views of an SVG; all of them when left out

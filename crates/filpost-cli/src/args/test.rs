@@ -22,7 +22,7 @@ pub struct TestArgs {
     /// Write a report for continuous integration: JUnit XML
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
-    /// Say which lines, outcomes of conditions, sections and settings no case has exercised
+    /// Report the lines, outcomes of conditions, sections and settings that no case exercises
     #[arg(long)]
     pub coverage: bool,
     /// Write the coverage as a page for people
@@ -31,11 +31,11 @@ pub struct TestArgs {
     /// Write the coverage for editors and code hosts: a tracefile of lcov
     #[arg(long, value_name = "FILE", requires = "coverage")]
     pub lcov: Option<PathBuf>,
-    /// Change the FIL and the settings of the posts, one small change at a time, and name the
+    /// Change the FIL and the settings of the posts, one small change at a time, and report the
     /// changes that no case notices
     #[arg(long, conflicts_with = "update")]
     pub mutate: bool,
-    /// Run the Ith of N parts of the cases, as 1/4: for several machines, each with its part
+    /// Run only every Nth case, starting with the Ith (1/4), to share them among computers
     #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["coverage", "mutate"])]
     pub shard: Option<Shard>,
     /// Make a case in this folder from --cl, --nc and a post, and run it
@@ -59,10 +59,10 @@ pub struct TestArgs {
     /// A FIL file of the case (may be given again)
     #[arg(short, long, value_name = "FILE", requires = "init")]
     pub fil: Vec<PathBuf>,
-    /// Lengths and angles of the case that differ by no more are the same
+    /// Largest difference of lengths and angles that the case ignores
     #[arg(long, value_name = "STEP", requires = "init", value_parser = tolerance)]
     pub tol: Option<f64>,
-    /// What the case does not look at: n, comments, dates, points, letters
+    /// What the case ignores: n, comments, dates, points, spaces or letters
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = ignored, requires = "init")]
     pub ignore: Vec<String>,
     /// A folder that FIL of the case reads (FILEF), which is copied into the case

@@ -12,23 +12,23 @@ pub struct TraceArgs {
     /// FILE:LINE of an NC program, a CL file or a FIL file; FILE:LINE:COLUMN of an NC program
     #[arg(value_name = "FILE:LINE[:COLUMN]")]
     pub place: String,
-    /// The line map of the run; FILE.map, or the one beside that knows FILE, when left out
+    /// The line map of the run; by default FILE.map, or a map in the same folder that lists FILE
     #[arg(long, value_name = "FILE")]
     pub map: Option<PathBuf>,
-    /// The CL file of the run, where it is now; where it lay as seen from the map when left out
+    /// The CL file of the run, if it has moved
     #[arg(long, value_name = "FILE")]
     pub cl: Option<PathBuf>,
-    /// A FIL file of the run, where it is now
+    /// A FIL file of the run, if it has moved
     #[arg(long, value_name = "FILE")]
     pub fil: Vec<PathBuf>,
-    /// How the answer is written
+    /// Format of the answer
     #[arg(long, value_enum, default_value_t = AnswerFormat::Text)]
     pub format: AnswerFormat,
     #[command(flatten)]
     pub cl_reading: ClReading,
     #[command(flatten)]
     pub raw: RawRecords,
-    /// Most lines of the NC program that are shown; all are counted
+    /// Largest number of program lines to show; all are counted
     #[arg(long, value_name = "N", default_value_t = 20)]
     pub most: usize,
     /// Encoding of CL and FIL texts (utf-8, cp1251, koi8-r, …); guessed when left out

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use filpost::locations::{TABLE, default_commons};
+use filpost::locations::{LIMITS_CHECK, Location, TABLE, default_commons};
 use filpost::{Commons, Diag, Error, Kind, Levels, Program, ready, stored, user_blocks};
 
 use super::{LETTERS, address, diff};
@@ -106,12 +106,15 @@ fn differences(out: &mut dyn Write, commons: &Commons) -> io::Result<()> {
         if row.kind == Kind::Int && user_blocks::list_of(row.number).is_some() {
             continue;
         }
-        if !row.used {
+        if !row.used || (is_travel(row) && !commons.read(LIMITS_CHECK)) {
             idle.push((row.kind, u32::from(row.number)));
             continue;
         }
         let [value, before] = [commons, &default].map(|at| explain::shown_value(row, at));
-        lines.push(format!("{:<28} {value}, not {before}\n{:>28} {}", row.name, "", row.meaning));
+        lines.push(format!(
+            "{:<28} {value} (default {before})\n{:>28} {}",
+            row.name, "", row.meaning
+        ));
     }
     for letter in LETTERS {
         let [value, before] = [commons, &default].map(|at| address(at, letter));
@@ -122,7 +125,7 @@ fn differences(out: &mut dyn Write, commons: &Commons) -> io::Result<()> {
     lines.extend(texts(commons));
     lines.extend(levels(commons.levels()));
     if lines.is_empty() {
-        lines.push("all that acts is as on the default machine".into());
+        lines.push("every setting that has an effect is that of the default machine".into());
     }
     lines.iter().try_for_each(|line| writeln!(out, "{line}"))?;
     if !idle.is_empty() {
@@ -130,6 +133,11 @@ fn differences(out: &mut dyn Write, commons: &Commons) -> io::Result<()> {
         writeln!(out, "\nset, and without effect: {}", names.join(", "))?;
     }
     Ok(())
+}
+
+/// A limit of travel, which acts where `limits.check` is on.
+fn is_travel(row: &Location) -> bool {
+    row.name.starts_with("limits.") && (row.name.ends_with("_min") || row.name.ends_with("_max"))
 }
 
 /// Levels of findings.

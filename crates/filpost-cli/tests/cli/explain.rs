@@ -18,6 +18,10 @@ fn subjects_are_explained() {
         ("CYCLE", "major word"),
         ("SQRTF", "quare root"),
         ("grbl", "GRBL"),
+        ("G83", "cycle.deep_code"),
+        ("m08", "Standard code for coolant"),
+        ("retract", "home.retract_z"),
+        ("trunnion", "haas-trunnion"),
     ] {
         let ran = place.run(&["explain", subject]);
         assert_eq!(ran.status, 0, "{subject}: {ran:?}");
@@ -34,5 +38,32 @@ fn every_code_is_explained() {
     for code in filpost::all_codes() {
         let ran = place.run(&["explain", &code.name()]);
         assert!(ran.status == 0 && ran.out.contains(code.reason), "{}: {ran:?}", code.name());
+    }
+}
+
+#[test]
+fn no_markdown_is_printed() {
+    let place = Folder::new();
+    for subject in ["haas-mill", "fanuc-mill-turn", "CYCLE", "SPINDL", "THREAD"] {
+        let ran = place.run(&["explain", subject]);
+        for sign in ["](", "```", "|---", "\n#"] {
+            assert!(!ran.out.contains(sign), "{subject}: `{sign}` in {}", ran.out);
+        }
+    }
+}
+
+#[test]
+fn every_ready_post_is_listed_and_every_command_has_a_manual_page() {
+    let place = Folder::new();
+    let listed = place.run(&["posts"]);
+    for post in filpost::ready::READY {
+        assert!(listed.out.contains(&format!("{} ", post.name)), "{}", post.name);
+    }
+    let page = place.run(&["man", "post"]);
+    assert!(page.status == 0 && page.out.contains("listing"), "{page:?}");
+    assert_eq!(place.run(&["man", "pots"]).status, 2);
+    let completions = place.run(&["completions", "bash"]);
+    for name in ["haas-trunnion", "rapid.split", "E0536"] {
+        assert!(completions.out.contains(name), "{name}");
     }
 }

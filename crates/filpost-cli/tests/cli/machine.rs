@@ -26,8 +26,8 @@ fn a_machine_is_shown_by_its_name_alone() {
          RELCOM:\n 0 0\n DBLCOM:\n 0 0\n";
     let place = Folder::new().with("uncx01.p07", option_file);
     for (name, said) in [
-        ("uncx01.p07", "rapid.split                  0 (one block), not"),
-        ("okuma-mill", "56, not 43"),
+        ("uncx01.p07", "rapid.split                  0 (one block) (default "),
+        ("okuma-mill", "56 (default 43)"),
     ] {
         let shown = place.run(&["machine", "show", name]);
         assert!(shown.status == 0 && shown.out.contains(said), "{shown:?}");
@@ -144,7 +144,7 @@ fn a_machine_says_what_it_sets() {
     let place = Folder::new().with("machine.toml", toml);
     let ran = place.run(&["machine", "show", "-m", "machine.toml"]);
     for line in [
-        "seqno.increment              5, not 1\n",
+        "seqno.increment              5 (default 1)\n",
         "blocks.end                   [\"M5\"]\n",
         "tape.start_char ",
         "set, and without effect: ",

@@ -45,7 +45,7 @@ fn commands(readme: &str) -> Vec<Vec<String>> {
 fn the_page_of_the_folder_can_be_followed() {
     let place = Folder::new();
     let made = place.run(&["new", "my-post", "--base", "haas-mill"]);
-    assert_eq!(made.out, "my-post is made, from haas-mill; go on with my-post/README.md\n");
+    assert_eq!(made.out, "Created my-post from haas-mill. Next: my-post/README.md\n");
     let readme = place.text("my-post/README.md").expect("a page");
     assert!(!readme.contains('{'), "{readme}");
     let steps = commands(&readme);

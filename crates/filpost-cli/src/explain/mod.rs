@@ -1,5 +1,8 @@
 //! `filpost explain`
 
+mod nc_function;
+mod plain;
+
 use filpost::builtins::BUILTINS;
 use filpost::cl::Vocabulary;
 use filpost::locations::{Location, TABLE};
@@ -36,12 +39,13 @@ pub fn run(subject: &[String]) -> Result<Status, Error> {
         }
         None => {
             let subject = words.join(" ");
-            output::say(&format!("nothing is known of `{subject}`"));
+            output::say(&format!("no help for `{subject}`"));
             if let Some(near) = nearest(&subject) {
                 output::say(&format!("did you mean `{near}`?"));
             }
             output::say(
-                "Ask for a code (E0501), POSTF 13, INTCOM 1861, a setting, a word or a function.",
+                "Ask for a code (E0501), a setting (rapid.split), a CL or FIL word (CYCLE), a function \
+                 (POSTF 13), a location (INTCOM 1861), a G or M code (G83) or a ready post (haas-mill).",
             );
             Ok(Status::Usage)
         }
@@ -54,11 +58,15 @@ fn one(word: &str) -> Option<String> {
     parts.extend(Location::named(&word.to_ascii_lowercase()).map(location));
     parts.extend(statement(word));
     parts.extend(function(word));
-    parts.extend(ready::find(word).map(|post| post.readme().to_string()));
+    parts.extend(ready::find(word).map(|post| plain::text(post.readme())));
+    parts.extend(nc_function::explain(word));
     if parts.is_empty() {
         parts.extend(vocabulary_word(word));
     }
     parts.extend(group(word));
+    if parts.is_empty() {
+        parts.extend(part_of_names(word));
+    }
     (!parts.is_empty()).then(|| parts.join("\n\n"))
 }
 
@@ -216,11 +224,11 @@ fn vocabulary_word(name: &str) -> Option<String> {
     let post = match (vocabulary.is_major(id), handled) {
         (_, true) => "The post carries it out.",
         (true, false) => "The post does not know it: a FIL section must take it.",
-        (false, false) => "It stands inside statements.",
+        (false, false) => "It is used inside statements.",
     };
     let page = word_pages::page(name).map_or_else(String::new, |page| {
         let (_, text) = page.split_once("\n\n").unwrap_or_default();
-        format!("\n\n{text}")
+        format!("\n\n{}", plain::text(text))
     });
     Some(format!("{}  {class}\n\n{code}\n{post}{page}", vocabulary.name(id)))
 }
@@ -234,6 +242,29 @@ fn group(prefix: &str) -> Option<String> {
         .map(|row| format!("{:<28} {}", row.name, row.meaning))
         .collect();
     (!rows.is_empty()).then(|| format!("Settings:\n{}", rows.join("\n")))
+}
+
+/// The settings and ready posts with a text in their name, or settings with it in their meaning.
+fn part_of_names(part: &str) -> Option<String> {
+    let part = part.to_ascii_lowercase();
+    if part.len() < 3 {
+        return None;
+    }
+    let posts: Vec<&str> =
+        READY.iter().map(|post| post.name).filter(|name| name.contains(&part)).collect();
+    let line = |row: &Location| format!("{:<28} {}", row.name, row.meaning);
+    let named: Vec<String> =
+        TABLE.iter().filter(|row| row.name.contains(&part)).map(line).collect();
+    let meant = TABLE.iter().filter(|row| row.meaning.to_ascii_lowercase().contains(&part));
+    let rows = if named.is_empty() { meant.map(line).collect() } else { named };
+    let mut text = Vec::new();
+    if !posts.is_empty() {
+        text.push(format!("Ready posts: {}", posts.join(", ")));
+    }
+    if !rows.is_empty() {
+        text.push(format!("Settings with `{part}`:\n{}", rows.join("\n")));
+    }
+    (!text.is_empty()).then(|| text.join("\n\n"))
 }
 
 fn sentence(doc: &str) -> String {
