@@ -14,19 +14,22 @@ const KNOWN: &[(&str, bool)] = &[
     ("cargo add", false),
     ("cargo install", true),
     (".ci/release", true),
+    (".ci/archive", true),
+    (".ci/wheel", true),
+    (".ci/book", true),
     (".ci/playground", true),
     ("crates/filpost-py/check", true),
     ("crates/filpost-capi/install", true),
     ("crates/filpost-lsp/editors/vscode/package.sh", true),
-    // Takes what the command before it has made.
-    ("pip install", true),
 ];
 
-/// The commands of the first table: the words between grave accents of its second column.
+/// The command at the top of the page, and those of the table of parts: the words between grave
+/// accents of its second column.
 fn commands() -> Vec<String> {
     let page = std::fs::read_to_string(root().join("docs/install.md")).expect("the page");
-    let rows = page.lines().skip_while(|line| !line.starts_with('|')).skip(2);
-    let mut commands = Vec::new();
+    let mut commands: Vec<String> =
+        page.lines().filter(|line| line.starts_with("cargo install")).map(str::to_string).collect();
+    let rows = page.lines().skip_while(|line| *line != "| part | command | needs |").skip(2);
     for row in rows.take_while(|line| line.starts_with('|')) {
         let how = row.split('|').nth(2).expect("a second column");
         commands.extend(how.split('`').skip(1).step_by(2).map(str::to_string));
@@ -52,7 +55,7 @@ fn run(line: &str) {
         return;
     }
     let prefix = place.0.path().join("prefix").display().to_string();
-    shell.arg(line.replace("PREFIX", &prefix)).current_dir(root());
+    shell.arg(line.replace("PREFIX", &prefix).replace("FOLDER", &prefix)).current_dir(root());
     shell.env("CARGO_INSTALL_ROOT", &prefix).env("PIP_TARGET", &prefix);
     succeed(line, &mut shell);
     if line.starts_with("cargo install") {
