@@ -1,6 +1,11 @@
 //! The documentation holds what it says: its commands run as printed, its
 //! links lead somewhere, and its tables have a row for each thing of the code.
 
+#[path = "docs/named.rs"]
+mod named;
+#[path = "docs/terms.rs"]
+mod terms;
+
 use std::process::{Command, Output};
 
 use filpost::builtins::BUILTINS;
@@ -9,9 +14,6 @@ use filpost::postf::{Grade, POSTF};
 use filpost::{cl::Vocabulary, dispatch, operation_name, ready};
 use filpost_tests::examples::{Block, blocks, run};
 use filpost_tests::root;
-
-/// What the pages write before a command of filpost when it is not installed.
-const BY_CARGO: &str = "cargo run --release -q -p filpost-cli -- ";
 
 fn read(name: &str) -> String {
     std::fs::read_to_string(root().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
@@ -37,8 +39,7 @@ fn pages() -> Vec<(String, String)> {
 /// Runs a command as it is printed, in the folder of the workspace.
 fn shell(line: &str) -> Output {
     let arguments = line
-        .strip_prefix(BY_CARGO)
-        .or_else(|| line.strip_prefix("filpost "))
+        .strip_prefix("filpost ")
         .unwrap_or_else(|| panic!("`{line}` is no command of filpost; mark its block as text"));
     Command::new(env!("CARGO_BIN_EXE_filpost"))
         .args(arguments.split_whitespace())
@@ -92,16 +93,12 @@ fn what_is_shown_is_what_is_printed() {
 }
 
 #[test]
-fn the_first_command_prints_the_listing_of_the_paper() {
-    let readme = read("README.md");
+fn the_first_group_of_grooves_is_the_listing_of_the_paper() {
+    let page = read("docs/papers/embos.md");
     let listing = read("corpus/papers/embos-grooves/figure-7.nc");
-    let all = blocks(&readme);
-    let command = &all[0];
-    assert_eq!(command.words, ["sh"]);
-    let output = shell(command.text.trim());
-    assert!(output.status.success());
-    assert_eq!(String::from_utf8_lossy(&output.stdout), listing);
-    assert_eq!(all[1].text, listing, "the listing shown is the listing printed");
+    let all = blocks(&page);
+    let command = all.iter().find(|block| block.words == ["sh"]).expect("a command");
+    assert_eq!(String::from_utf8_lossy(&shell(command.text.trim()).stdout), listing);
 }
 
 #[test]
