@@ -8,6 +8,7 @@
 //! model for a list that is short and lasts.
 
 pub mod cycle;
+pub mod motion;
 pub mod thread_shape;
 
 use fil_machine::modes::{FeedMode, Plane};
@@ -16,6 +17,9 @@ use nalgebra::{Point3, Vector3};
 
 use crate::cause::Cause;
 use crate::control_state::{Compensation, ForeignBlock};
+
+/// The word of a motion record that holds its x.
+pub const POINT: u16 = 6;
 
 /// A CL point with its tool axis.
 #[derive(Clone, Copy, Debug, PartialEq)]

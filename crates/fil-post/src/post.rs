@@ -1,22 +1,17 @@
-//! The post: takes CL records one after the other and writes blocks.
+//! The post of one run: control and path.
 
-use fil_cl::Record;
-use fil_cl::vocabulary::Vocabulary;
 use fil_diag::Result;
-use fil_machine::Commons;
 use fil_machine::locations as loc;
 use fil_machine::modes::{FeedMode, Unit};
 
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::needs::{Act, Part};
-use crate::dispatch::{self, Dispatcher};
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::noted::Noted;
-use crate::operation::{End, Feed};
-use crate::path::{Choice, Path, long_arc, tool_change};
-use crate::words::end;
+use crate::operation::Feed;
+use crate::path::{Choice, Path};
 
 /// What waits for the next motion of the CL file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,23 +32,9 @@ pub struct Post {
     pub control: Control,
     /// Where the CL file stands.
     pub path: Path,
-    /// Which word is carried out by what.
-    pub dispatcher: Dispatcher,
 }
 
 impl Post {
-    /// A post for a machine.
-    ///
-    /// # Errors
-    /// Settings that make no machine.
-    pub fn new(commons: Commons) -> Result<Self> {
-        Ok(Post {
-            control: Control::new(commons)?,
-            path: Path::default(),
-            dispatcher: Dispatcher::default(),
-        })
-    }
-
     /// Refuses an operation whose needs the control or the CL file does not meet.
     ///
     /// # Errors
@@ -78,46 +59,10 @@ impl Post {
         self.control.unit = self.control.unit.or(Some(unit));
     }
 
-    /// Carries out one record.
-    ///
-    /// # Errors
-    /// Whatever the record's post word refuses; nothing of the run may be
-    /// used after an error.
-    pub fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<()> {
-        self.begin(record, vocabulary)?;
-        while self.has_more() {
-            self.go_on()?;
-        }
-        Ok(())
-    }
-
-    /// Carries out one record, of a CIRCLE with very many blocks the first of them: while
-    /// [`Post::has_more`] the caller takes the finished ones away and calls [`Post::go_on`].
-    ///
-    /// # Errors
-    /// As [`Post::process`].
-    #[inline]
-    pub fn begin(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<()> {
-        self.control.refresh()?;
-        if self.control.tape.noted.is_some() {
-            let cause = self.control.tape.cause;
-            self.control.block.cause = Cause { made_by_fil: record.line == 0, ..cause };
-        }
-        dispatch::dispatch(self, record, vocabulary)
-    }
-
     /// The last record has more blocks to be written.
     #[inline]
     pub fn has_more(&self) -> bool {
         self.path.long_arc.rest.is_some()
-    }
-
-    /// Writes some more blocks of the last record.
-    ///
-    /// # Errors
-    /// As [`Post::process`].
-    pub fn go_on(&mut self) -> Result<()> {
-        long_arc::go_on(self)
     }
 
     /// Lets go of what a refused record has begun, so that the records after it can be
@@ -166,14 +111,6 @@ impl Post {
         self.path.feed.get_or_insert(Feed { value: SOME, asked: SOME, mode, cause });
     }
 
-    /// Ends the program if no FINI did.
-    ///
-    /// # Errors
-    /// A record that waits for its continuation (a CIRCLE without end point).
-    pub fn finish(&mut self) -> Result<()> {
-        end::finish(self, End::OfFile)
-    }
-
     /// Which way arcs turn was chosen by whoever runs the post: arcs that prove nothing are
     /// only warned of. Arcs that contradict the choice are still refused.
     pub fn trust_arcs(&mut self) {
@@ -206,12 +143,6 @@ impl Post {
     /// Diameter of the cutter as the CL file names it, in CL units.
     pub fn cutter_diameter(&self) -> Option<f64> {
         self.path.cutter.map(|cutter| cutter.diameter)
-    }
-
-    /// True when a tool change depends on those behind it: whoever drives the post tells
-    /// them by `path.ahead.tools` before a record that changes the tool.
-    pub fn looks_ahead_for_tools(&self) -> bool {
-        tool_change::looks_ahead(&self.control.commons)
     }
 
     /// True when rotary positions are chosen by the motions behind a RAPID: whoever drives the

@@ -11,10 +11,10 @@ use fil_machine::{Commons, Letter};
 
 use crate::block::{Block, function, named};
 use crate::cause::{Cause, Stacks};
-use crate::control::replaced::Replaced;
 use crate::editing::EditorSlot;
 use crate::errors::PostCode;
 use crate::noted::{Noted, SEQUENCE, SKIP, TEXT};
+use crate::replaced::Replaced;
 
 /// Sequence numbers: what is due for the next block.
 #[derive(Clone, Debug, Default)]

@@ -6,11 +6,10 @@ use fil_machine::axes::{AXES, AxisSet};
 use fil_machine::modes::FeedMode;
 
 use super::Control;
-use super::word_address::arc::PlaneArc;
-use super::word_address::motion::Motion;
 use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::Feed;
+use crate::operation::motion::{Motion, PlaneArc};
 
 /// Most blocks of one motion.
 const MOST_PARTS: f64 = 1000.0;

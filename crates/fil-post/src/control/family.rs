@@ -7,8 +7,7 @@ use fil_machine::locations::{ControlFamily, ThreadCycle};
 use fil_machine::modes::Plane;
 use nalgebra::Rotation3;
 
-use super::word_address::arc::PlaneArc;
-use super::word_address::motion::{self as words, Motion, RapidCode};
+use super::word_address::motion as words;
 use super::{
     Control, departure, klartext, length_plane, sinumerik, straight_rapid, vectors, word_address,
 };
@@ -16,6 +15,7 @@ use crate::cause::Cause;
 use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::cycle::{Cycle, Hole};
+use crate::operation::motion::{Motion, PlaneArc, RapidCode};
 use crate::operation::thread_shape::{Ends, Shape};
 use crate::operation::{Dwell, Feed, Lead, Operation, Thread, ToolChange};
 
@@ -25,23 +25,6 @@ use crate::operation::{Dwell, Feed, Lead, Operation, Thread, ToolChange};
 /// Always.
 pub fn refuse<T>(message: impl Into<String>) -> Result<T> {
     PostCode::Family.err(message)
-}
-
-/// Refuses a comment in brackets, which these languages do not have: the control would stop
-/// at it, or take it for an expression.
-///
-/// # Errors
-/// The text is one, behind its number.
-pub fn refuse_brackets(text: &str) -> Result<()> {
-    let text = text.trim_start_matches(['N', 'n']).trim_start_matches(|c: char| c.is_ascii_digit());
-    let text = text.trim();
-    if !(text.starts_with('(') && text.ends_with(')')) {
-        return Ok(());
-    }
-    let mut diag =
-        PostCode::Family.diag(format!("`{text}`: brackets hold no comment on this control"));
-    diag.hint = Some("A comment stands behind a semicolon, `; TEXT`; PPRINT writes one.".into());
-    Err(diag)
 }
 
 /// Writes an operation that does not depend on the path.

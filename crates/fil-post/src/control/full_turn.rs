@@ -10,10 +10,10 @@ use fil_machine::axes::{AXES, AxisSet, Position};
 use fil_machine::locations::{self as loc, ControlFamily, RotaryOutput, RotaryZeroSign};
 
 use super::Control;
-use super::word_address::motion::Motion;
 use crate::control::needs::Act;
 use crate::control_state::Place;
 use crate::errors::PostCode;
+use crate::operation::motion::Motion;
 
 /// Turns and clamps of the rotary axes.
 #[derive(Clone, Copy, Debug, Default)]

@@ -4,8 +4,8 @@ use fil_machine::axes::AxisSet;
 use fil_machine::axis_chain::Carries;
 
 use super::Control;
-use super::word_address::motion::Motion;
 use crate::control_state::Place;
+use crate::operation::motion::Motion;
 
 /// Where the rotary axes stand before and behind a motion, degrees; `None` where a head may stand
 /// anywhere. A table does not turn the tool.

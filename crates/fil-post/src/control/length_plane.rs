@@ -12,9 +12,8 @@ use fil_machine::modes::Plane;
 use fil_machine::{FunctionCode, Letter};
 
 use super::Control;
-use super::word_address::{compensation, modes};
 use crate::cause::Cause;
-use crate::control_state::{Meaning, functions, modal};
+use crate::control_state::{Meaning, modal};
 use crate::errors::PostCode;
 use crate::operation::Operation;
 
@@ -39,7 +38,7 @@ fn of_tool(control: &Control) -> Plane {
     }
     let tool = control.tables.chain().tool;
     let lies_along = |plane: &Plane| tool[plane.normal()].abs() >= 1.0 - PARALLEL;
-    Plane::ALL.into_iter().find(lies_along).unwrap_or_else(|| compensation::usual_plane(control))
+    Plane::ALL.into_iter().find(lies_along).unwrap_or_else(|| usual_plane(control))
 }
 
 /// True where a motion would be made in another plane than it needs, or may be.
@@ -51,25 +50,10 @@ pub fn is_left(control: &Control) -> bool {
 
 /// True where another plane is in force, or may be: behind a text that can't be read. What a program
 /// begins in is the matter of the machine, which says its plane or leaves it to the control.
-fn may_be_another(control: &Control, plane: Plane) -> bool {
+pub fn may_be_another(control: &Control, plane: Plane) -> bool {
     match control.state.get(modal::PLANE) {
         Some(now) => now != plane,
         None => control.commons.read(loc::CIRCLE_PLANE).is_some(),
-    }
-}
-
-/// Says the plane that motions need, where another one may be in force.
-///
-/// # Errors
-/// As [`modes::plane_of_its_own`].
-pub fn take_back(control: &mut Control) -> Result<()> {
-    take(control, of_motions(control))
-}
-
-fn take(control: &mut Control, plane: Option<Plane>) -> Result<()> {
-    match plane {
-        Some(plane) if may_be_another(control, plane) => modes::plane_of_its_own(control, plane),
-        _ => Ok(()),
     }
 }
 
@@ -85,7 +69,7 @@ pub fn is_of_one_motion(control: &Control, plane: Plane) -> bool {
         && of_motions(control).is_none()
         && !control.tables.is_polar()
         && !control.is_compensated()
-        && plane != compensation::usual_plane(control)
+        && plane != usual_plane(control)
 }
 
 /// Refuses cutter compensation in a plane in which the lengths of the tool act along other axes.
@@ -122,39 +106,22 @@ pub fn refuse_repeated(control: &Control, operation: &Operation) -> Result<()> {
     Ok(())
 }
 
-/// Says the plane in which a length is taken up along the tool, on a mill that names it by a
-/// function: before the tool is changed, and before that function where another plane has come in
-/// between.
-///
-/// # Errors
-/// As [`modes::plane_of_its_own`].
-pub fn before_length(control: &mut Control) -> Result<()> {
-    take(control, of_length(control))
-}
-
-/// The same before the words of others that take up a length and say no plane.
-///
-/// # Errors
-/// As [`modes::plane_of_its_own`].
-pub fn before_others(control: &mut Control, words: &[(Letter, f64)]) -> Result<()> {
-    if !of_length(control).is_some_and(|plane| may_be_another(control, plane)) {
-        return Ok(());
-    }
-    let codes = || functions(words);
-    let says_plane = codes().any(|code| matches!(control.meaning(code), Meaning::Plane(_)));
-    if !says_plane && codes().any(|code| control.calls_length(code)) {
-        return before_length(control);
-    }
-    Ok(())
-}
-
 /// The plane in which a mill whose tool lies along Z takes up lengths by a function; `None` for other
 /// machines.
-fn of_length(control: &Control) -> Option<Plane> {
+pub fn of_length(control: &Control) -> Option<Plane> {
     let is_mill = control.tables.family == ControlFamily::WordAddress
         && !control.commons.read(loc::LATHE_DIAMETER)
         && control.commons.read(loc::TOOL_FORMAT) == ToolFormat::TWordAndChangeCode
         && control.code_if_any(loc::TOOL_LENGTH_CODE).is_some();
     let along_z = control.tables.chain().tool.z.abs() >= 1.0 - PARALLEL;
     (is_mill && along_z).then_some(Plane::Xy)
+}
+
+/// The plane a machine works in: ZX on a lathe, else the one its program starts in, else XY.
+pub fn usual_plane(control: &Control) -> Plane {
+    if control.commons.read(loc::LATHE_DIAMETER) {
+        return Plane::Zx;
+    }
+    let start = crate::control::program::state_at_start(&control.commons, None);
+    start.get(modal::PLANE).unwrap_or(Plane::Xy)
 }

@@ -7,10 +7,11 @@ use fil_machine::commons::EMPTY;
 use fil_machine::letters::D;
 use fil_machine::locations::{self as loc, ControlFamily, HomeFrame};
 
-use super::word_address::motion::Motion;
 use super::{Control, family, full_turn, klartext};
 use crate::cause::Cause;
 use crate::control::needs::Act;
+use crate::errors::PostCode;
+use crate::operation::motion::Motion;
 
 /// The axes of the block go where they say in the frame of the machine.
 const MACHINE: FunctionCode = FunctionCode::whole(53);
@@ -48,7 +49,7 @@ pub fn go(control: &mut Control, motion: &Motion, before: Before, cause: Cause) 
     let of_sinumerik = control.tables.family == ControlFamily::Sinumerik;
     let edge = control.sinumerik.edge().filter(|_| of_sinumerik);
     if of_sinumerik && edge.is_none() && before == Before::Others {
-        return family::refuse(
+        return PostCode::Family.err(
             "a position of the machine while the cutting edge in force is not known: the D word \
              that ends the length of the tool could not be taken back",
         );

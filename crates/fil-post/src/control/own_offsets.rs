@@ -5,7 +5,6 @@ use fil_diag::Result;
 use fil_machine::locations::{self as loc, ControlToolOffsets};
 
 use super::Control;
-use super::family::refuse;
 use crate::errors::PostCode;
 
 /// True where the tool's own length and radius take the place of each offset.
@@ -19,7 +18,8 @@ pub fn of_tool(control: &Control) -> bool {
 /// It does not: `message` says why the control can't take the number.
 pub fn leave_out(control: &mut Control, offset: f64, message: &str) -> Result<()> {
     if !of_tool(control) {
-        return refuse(format!("{message} (control.tool_offsets = 1 leaves the number out)"));
+        return PostCode::Family
+            .err(format!("{message} (control.tool_offsets = 1 leaves the number out)"));
     }
     let message = format!("offset {offset}: length and radius come with the tool");
     control.warnings.add(PostCode::IgnoredPart, message);

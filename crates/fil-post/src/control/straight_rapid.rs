@@ -7,9 +7,9 @@ use fil_machine::axes::AxisSet;
 use fil_machine::locations::{self as loc, ControlFamily, RapidStraight};
 use nalgebra::Vector3;
 
-use super::word_address::motion::Motion;
 use super::{Control, heads};
 use crate::errors::PostCode;
+use crate::operation::motion::Motion;
 
 /// Directions are one where the cosine between them is less than this below 1.
 const PARALLEL: f64 = 1e-8;

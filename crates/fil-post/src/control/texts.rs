@@ -66,6 +66,23 @@ pub fn without_blanks(text: &str) -> String {
     kept.collect()
 }
 
+/// Refuses a comment in brackets, which these languages do not have: the control would stop
+/// at it, or take it for an expression.
+///
+/// # Errors
+/// The text is one, behind its number.
+pub fn refuse_brackets(text: &str) -> Result<()> {
+    let text = text.trim_start_matches(['N', 'n']).trim_start_matches(|c: char| c.is_ascii_digit());
+    let text = text.trim();
+    if !(text.starts_with('(') && text.ends_with(')')) {
+        return Ok(());
+    }
+    let mut diag =
+        PostCode::Family.diag(format!("`{text}`: brackets hold no comment on this control"));
+    diag.hint = Some("A comment stands behind a semicolon, `; TEXT`; PPRINT writes one.".into());
+    Err(diag)
+}
+
 #[cfg(test)]
 mod tests {
     use super::without_blanks;

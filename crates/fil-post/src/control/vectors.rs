@@ -9,9 +9,9 @@ use fil_machine::letters::IJK;
 use fil_machine::locations::ControlFamily;
 
 use super::Control;
-use super::word_address::motion::{Motion, note_axis_words};
 use crate::control_state::modal;
 use crate::errors::PostCode;
+use crate::operation::motion::Motion;
 
 /// What helps where a vector can't say the direction.
 pub const SAY_ANGLES: &str = "Say angles with rotary.tip_form = 0.";
@@ -34,7 +34,8 @@ pub(super) fn are_due(control: &Control, motion: &Motion) -> bool {
         && !motion.axes.and(AxisSet::ROTARY).and(control.tables.present()).is_empty()
 }
 
-/// Adds X, Y, Z and the vector; what the rotary axes are told by words is in doubt from here on.
+/// Adds X, Y, Z and the vector, and says which of the three; what the rotary axes are told by words
+/// is in doubt from here on.
 ///
 /// # Errors
 /// The machine has no I, J or K; REPEAT turns a rotary axis beside the vector.
@@ -44,7 +45,7 @@ pub(super) fn axis_words(
     motion: &Motion,
     changed: AxisSet,
     scaled: &[i64; AXES],
-) -> Result<()> {
+) -> Result<AxisSet> {
     refuse_repeats(control)?;
     let metric = control.is_metric();
     control.tables.format_vectors(&control.commons, metric, true);
@@ -54,9 +55,6 @@ pub(super) fn axis_words(
         if let Some(position) = control.tables.axis(number).tape_position()? {
             control.block.put(position, scaled[number]);
         }
-    }
-    if control.block.noting {
-        note_axis_words(control, linear, motion.word);
     }
     let angles = [motion.position[3], motion.position[4]];
     let direction = control.tables.chain().axis_at(angles).normalize();
@@ -77,7 +75,7 @@ pub(super) fn axis_words(
         control.state.doubt(axis.letter);
     }
     control.tip.leans = Some(angles);
-    Ok(())
+    Ok(linear)
 }
 
 /// True where the rotary axes stand in one place only: as words or a vector have said, in no

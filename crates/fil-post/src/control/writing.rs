@@ -11,8 +11,7 @@ use super::edit::plain;
 use super::left_out::{Edit, Maker};
 use super::word_address::modes;
 use super::{
-    Compensation, Control, Function, family, klartext, length_plane, program, sinumerik,
-    speed_of_others, texts,
+    Compensation, Control, Function, klartext, program, sinumerik, speed_of_others, texts,
 };
 use crate::cause::Cause;
 use crate::control::needs::Act;
@@ -90,7 +89,7 @@ impl Control {
         self.require(Act::Block)?;
         modes::leave_plane_of_its_own(self)?;
         let plain = plain(words);
-        length_plane::before_others(self, &plain)?;
+        modes::before_others(self, &plain)?;
         self.refuse_without_length(&plain)?;
         if self.tables.style.edits_words
             && let Some(edited) = self.edited_words(words)?
@@ -174,7 +173,7 @@ impl Control {
         }
         self.require(Act::Block)?;
         modes::leave_plane_of_its_own(self)?;
-        length_plane::before_others(self, block.words())?;
+        modes::before_others(self, block.words())?;
         texts::check(text)?;
         if maker == Maker::Text {
             self.refuse_without_length(block.words())?;
@@ -183,7 +182,7 @@ impl Control {
             sinumerik::reader::refuse_other_diameters(self, block)?;
         }
         if self.tables.family != ControlFamily::WordAddress {
-            family::refuse_brackets(text)?;
+            texts::refuse_brackets(text)?;
         }
         let edited = match maker {
             Maker::Post => self.put(text, numbered, maker)?,

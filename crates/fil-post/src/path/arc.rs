@@ -9,22 +9,19 @@ use fil_machine::locations::{
 use fil_machine::modes::{INCH, Plane};
 use nalgebra::{Point3, Vector3};
 
-use super::long_arc::{self, Parts};
-use super::rotary::Solution;
+use super::arc_parts::{
+    FULL, Parts, RADIUS_TOLERANCE, SAME_POINT, Step, flat, least_angle, start_angle, sweep,
+};
+use super::position::Solution;
 use super::{feed_rules, frame, rotary};
-use crate::control::word_address::arc::{self as words, PlaneArc};
+use super::{frame_begin, long_arc, position};
+use crate::control::word_address::arc as words;
 use crate::control::{Function, family};
 use crate::control_state::{Compensation, CutterPath, modal};
 use crate::errors::PostCode;
+use crate::operation::motion::PlaneArc;
 use crate::operation::{Arc, Target};
 use crate::post::Post;
-
-/// Radii of start and end may differ by this, mm or inch.
-const RADIUS_TOLERANCE: f64 = 1e-3;
-
-/// End and start of an arc nearer than this make a full circle, mm or inch: CL files round to five
-/// digits behind the point at least, and no arc is that short.
-const SAME_POINT: f64 = 1.5e-5;
 
 /// End and start of an arc nearer than this, and farther than that, may be meant as one point: CL
 /// files have three digits and more. In mm.
@@ -36,8 +33,6 @@ const NEAR_PLANE: f64 = 1e-6;
 
 /// Angles nearer than this are one, degrees and quarters of a turn.
 const SAME_ANGLE: f64 = 1e-6;
-
-pub(super) const FULL: f64 = 360.0;
 
 const ELSEWHERE: &str = "the tape does not stand where the arc begins: a cycle, a text, POSTN, REPEAT or FROM has \
      moved the axes or the point, TRANS the frame, or no motion came before";
@@ -69,7 +64,7 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     let turns_axis = target.axis != post.path.axis.stands;
     if post.control.tables.frame_output && !post.writes_tip() {
         let axis = post.path.axis.stands;
-        frame::turn_to(post, Target { axis, ..target }, false)?;
+        frame_begin::turn_to(post, Target { axis, ..target }, false)?;
     }
     let whole =
         if turns_axis { None } else { in_plane(post, arc, start, (radius, sweep), target)? };
@@ -136,7 +131,7 @@ fn where_it_begins(post: &Post, start: Point3<f64>) -> Result<Solution> {
     }
     let here = Target { point: start, axis: post.path.axis.stands, word: 0 };
     let (from, solution) = if post.writes_tip() {
-        let (tip, _) = rotary::transformed(post, here);
+        let (tip, _) = position::transformed(post, here);
         ([tip.x, tip.y, tip.z, 0.0, 0.0], Solution::Still)
     } else {
         rotary::position_of(post, here)?
@@ -232,26 +227,6 @@ fn is_across_compensation(post: &Post, arc: &PlaneArc) -> Result<bool> {
     Ok(true)
 }
 
-/// The vector from the axis of the arc to a point.
-pub fn flat(arc: &Arc, point: Point3<f64>) -> Vector3<f64> {
-    let from = point - arc.center;
-    from - arc.axis * arc.axis.dot(&from)
-}
-
-/// Angle from start to end about the axis, degrees: above 0, at most 360 and
-/// the full turns on top. A start above the end is one turn, or TIMES turns, of which
-/// rounded points may lack a little.
-pub(super) fn sweep(arc: &Arc, [from, to]: [Vector3<f64>; 2]) -> f64 {
-    let apart = (from - to).norm();
-    if arc.turns == 0.0 && apart < SAME_POINT {
-        return FULL;
-    }
-    let angle = libm::atan2(arc.axis.dot(&from.cross(&to)), from.dot(&to)).to_degrees();
-    let whole_turns = arc.turns > 0.0 && apart < RADIUS_TOLERANCE;
-    let part = if angle <= 0.0 && !whole_turns { angle + FULL } else { angle };
-    part + FULL * arc.turns
-}
-
 /// The arc in machine coordinates, and how the machine comes to its end; `None` when the control can't say it as an arc.
 fn in_plane(
     post: &Post,
@@ -309,7 +284,7 @@ fn in_plane(
         start: axes.map(|number| from[number]),
         to,
         sweep,
-        word: rotary::word_of(post, target),
+        word: position::word_of(post, target),
         cause: arc.cause,
     };
     Ok(Some((arc, solution)))
@@ -365,12 +340,6 @@ fn extremes(arc: &PlaneArc) -> impl Iterator<Item = f64> + use<> {
         .map(move |angle| sign * angle)
 }
 
-/// Angle of the start from the first axis of the plane, degrees.
-pub(super) fn start_angle(arc: &PlaneArc) -> f64 {
-    let [first, second] = arc.plane.axes();
-    libm::atan2(arc.from[second] - arc.center[1], arc.from[first] - arc.center[0]).to_degrees()
-}
-
 /// The parts that the control reads as they are meant: as few as the machine's rules
 /// allow, more where rounding would change them; `None` when no arc does.
 fn parts(post: &Post, arc: &PlaneArc) -> Result<Option<Parts>> {
@@ -379,7 +348,7 @@ fn parts(post: &Post, arc: &PlaneArc) -> Result<Option<Parts>> {
         Step::Halves => &[Step::Halves, Step::Quadrants],
         Step::Quadrants => &[Step::Quadrants],
     };
-    let least = least_angle(post, arc);
+    let least = least_angle(&post.control, arc);
     for step in steps {
         let parts = Parts::new(arc, *step, least);
         if are_meant(post, parts.clone())? {
@@ -391,30 +360,12 @@ fn parts(post: &Post, arc: &PlaneArc) -> Result<Option<Parts>> {
 
 /// True where the control reads each part as it is meant.
 fn are_meant(post: &Post, mut parts: Parts) -> Result<bool> {
-    while let Some(part) = parts.next(post)? {
+    while let Some(part) = parts.next(&post.control)? {
         if !family::reads_as_meant(&post.control, &part)? {
             return Ok(false);
         }
     }
     Ok(true)
-}
-
-/// Degrees of an arc as long as two last digits: a part shorter than that would be
-/// rounded away.
-pub(super) fn least_angle(post: &Post, arc: &PlaneArc) -> f64 {
-    let digits = arc.plane.axes().map(|number| post.control.tables.axis(number).resolution());
-    (2.0 * digits[0].max(digits[1]) / arc.radius).to_degrees().max(1e-6)
-}
-
-/// Where the blocks of an arc end.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Step {
-    /// After each full turn.
-    Turns,
-    /// After half a turn, so that none is a full circle.
-    Halves,
-    /// At the axes of the plane.
-    Quadrants,
 }
 
 /// What the machine asks for.

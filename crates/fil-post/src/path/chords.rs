@@ -3,12 +3,12 @@
 use fil_diag::Result;
 use fil_machine::locations as loc;
 
-use super::arc::flat;
+use super::arc_parts::{Chords, flat};
 use super::{Transformation, linear, linearization};
 use crate::errors::PostCode;
 use crate::operation::{Arc, MotionKind, Target};
 use crate::post::Post;
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 
 /// Smallest angle of a chord, degrees.
 const FINEST: f64 = 0.05;
@@ -19,21 +19,6 @@ const MOST_LINES: u32 = 100_000;
 
 /// Chord tolerance where the machine names none, mm.
 const TOLERANCE: f64 = 0.005;
-
-/// An arc that is written as lines.
-#[derive(Clone, Debug)]
-pub(crate) struct Chords {
-    base: Point3<f64>,
-    from: Vector3<f64>,
-    across: Vector3<f64>,
-    rise: Vector3<f64>,
-    sweep: f64,
-    axes: [Vector3<f64>; 2],
-    end: Target,
-    count: u32,
-    /// How many of them are written.
-    done: u32,
-}
 
 impl Chords {
     /// `sweep`: degrees.

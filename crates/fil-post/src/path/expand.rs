@@ -9,11 +9,11 @@ use super::rapid;
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::word_address::cycle as words;
-use crate::control::word_address::motion::Motion;
 use crate::control::word_address::spindle;
 use crate::control::{family, tap};
 use crate::errors::PostCode;
 use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
+use crate::operation::motion::Motion;
 use crate::operation::{Dwell, Feed, Lead, SpindleSpeed};
 
 /// Drills one hole: rapid to it and to the R level, feed to the bottom (in

@@ -7,12 +7,11 @@ use fil_machine::locations::{self as loc, FeedInverseLength, LinearMethod};
 use fil_machine::modes::FeedMode;
 
 use super::turning_feed::TurningFeed;
-use super::{Since, linearization, rotary};
+use super::{Since, linearization, position};
 use crate::control::family;
-use crate::control::word_address::arc::PlaneArc;
-use crate::control::word_address::motion::Motion;
 use crate::control_state::{Compensation, Place, modal};
 use crate::errors::PostCode;
+use crate::operation::motion::{Motion, PlaneArc};
 use crate::operation::{Feed, Target};
 use crate::post::Post;
 
@@ -114,7 +113,7 @@ fn length(post: &Post, way: [Option<f64>; 3], axes: AxisSet, target: Target) -> 
     }
     let whole = axes == AxisSet::ALL;
     let from = post.path.point.filter(|_| whole)?;
-    let in_part = |point| rotary::transformed(post, Target { point, ..target }).0;
+    let in_part = |point| position::transformed(post, Target { point, ..target }).0;
     Some((in_part(target.point) - in_part(from)).norm())
 }
 

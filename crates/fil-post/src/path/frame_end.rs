@@ -4,11 +4,11 @@
 use fil_diag::Result;
 
 use super::{frame, height, rapid_lean, turned_apart};
-use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{family, machine_frame};
 use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::Operation;
+use crate::operation::motion::{Motion, RapidCode};
 use crate::post::Post;
 
 const OUT_FIRST: &str = "Bring the tool out by RAPID and GOTO before it, or turn it upright there.";

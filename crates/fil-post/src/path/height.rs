@@ -2,10 +2,9 @@
 //! of the machine never goes down.
 
 use fil_diag::Result;
-use fil_machine::axes::AxisSet;
+use fil_machine::axes::{AxisSet, Position};
 use nalgebra::Point3;
 
-use super::{frame, tip_control};
 use crate::control::Control;
 use crate::control::machine_frame;
 use crate::control::skip::refuse_level;
@@ -16,7 +15,7 @@ use crate::errors::PostCode;
 /// known.
 pub(super) fn slides_in_frame(control: &Control) -> Option<Point3<f64>> {
     let (turn, angles) = control.tip.frame.filter(|_| control.state.is(modal::WORK_PLANE, true))?;
-    if !frame::rests(control, angles) {
+    if !rests(control, angles) {
         return None;
     }
     let [x, y, z] = [0, 1, 2].map(|number| control.stands(number));
@@ -27,7 +26,7 @@ pub(super) fn slides_in_frame(control: &Control) -> Option<Point3<f64>> {
 /// Z of the machine, mm or inch; `None` where it is not known.
 pub(super) fn machine_height(control: &Control) -> Option<f64> {
     if control.may_name_tip() {
-        return tip_control::machine_height(control);
+        return slides(control).map(|slides| slides.z);
     }
     if control.may_be_tilted() {
         return slides_in_frame(control).map(|slides| slides.z);
@@ -89,4 +88,34 @@ fn unknown<T>() -> Result<T> {
          be down",
         "Bring the tool out by RAPID and GOTO before it, or put GOHOME or LOADTL there.",
     )
+}
+
+/// Where the tip stands in the part, and the rotary axes, as the tape says it; `None` where that
+/// is not known.
+pub(super) fn pose(control: &Control) -> Option<(Point3<f64>, [f64; 2])> {
+    let mut position = Position::default();
+    for number in control.tables.present().numbers() {
+        let letter = control.tables.axis(number).letter;
+        let said = control.axis_position(number).filter(|_| control.state.has_last(letter));
+        let leans = control.tip.leans.filter(|_| number > 2).map(|leans| leans[number - 3]);
+        // A word that could be a full turn is not said again where the axis stands.
+        let stands = || control.stands(number).filter(|_| number > 2);
+        position[number] = said.or(leans).or_else(stands)?;
+    }
+    let [x, y, z, first, second] = position;
+    Some((Point3::new(x, y, z), [first, second]))
+}
+
+/// Where X, Y and Z of the machine stand under tool-tip control; `None` where that is not known.
+pub(super) fn slides(control: &Control) -> Option<Point3<f64>> {
+    pose(control).map(|(tip, angles)| control.tables.chain().linear(tip, angles))
+}
+
+/// The rotary axes stand at these angles, to their last digits, whoever has brought them there.
+pub(super) fn rests(control: &Control, angles: [f64; 2]) -> bool {
+    control.tables.present().and(AxisSet::ROTARY).numbers().all(|number| {
+        let (axis, angle) = (control.tables.axis(number), angles[number - 3]);
+        let stands = control.stands(number);
+        stands.is_some_and(|at| (axis.near(at, angle) - angle).abs() <= axis.resolution())
+    })
 }

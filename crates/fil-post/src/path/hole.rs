@@ -10,19 +10,22 @@ use fil_machine::locations::{
 };
 use fil_machine::modes::FeedMode;
 
-use super::rotary::Solution;
-use super::{Since, expand, frame, mill_turn, rapid, rapid_turn, rotary, scaled_lead, tip_hole};
+use super::position::Solution;
+use super::{
+    Since, expand, frame_begin, mill_turn, position, rapid, rapid_turn, rotary, scaled_lead,
+    tip_hole,
+};
 use crate::control::needs::Act;
 use crate::control::place::cross_unknown;
 use crate::control::sinumerik::live_tap;
 use crate::control::skip::refuse_level;
 use crate::control::word_address::cycle as words;
-use crate::control::word_address::motion::Motion;
 use crate::control::word_address::spindle;
 use crate::control::{Control, family};
 use crate::control_state::{Place, modal};
 use crate::errors::PostCode;
 use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
+use crate::operation::motion::Motion;
 use crate::operation::{SpindleSpeed, Target};
 use crate::post::Post;
 
@@ -65,7 +68,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         refuse_less_than_a_digit(&post.control, cycle)?;
         return tip_hole::hole(post, cycle, target);
     }
-    if post.control.tables.frame_output && frame::turn_to(post, target, false)? {
+    if post.control.tables.frame_output && frame_begin::turn_to(post, target, false)? {
         (cycle.initial, cycle.above, cycle.in_force) = (None, None, None);
     }
     family::ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
@@ -81,7 +84,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     }
     post.path.last.in_cut = false;
     post.path.arrive(target);
-    let word = rotary::word_of(post, target);
+    let word = position::word_of(post, target);
     let at = Motion::new(position, AxisSet::ALL, word);
     raise(post, cycle, &mut hole, &at)?;
     for level in [hole.bottom, hole.clear, hole.initial] {

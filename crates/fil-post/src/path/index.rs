@@ -5,11 +5,11 @@ use fil_machine::axis_chain::Carries;
 use fil_machine::locations::{self as loc, RotaryTableWords};
 use nalgebra::{Matrix3x4, Vector3};
 
-use super::{Statement, Transformation, rapid, rotary, tip};
+use super::{Statement, Transformation, position, rapid, tip};
 use crate::control::family;
 use crate::control::needs::Act;
-use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
+use crate::operation::motion::Motion;
 use crate::post::Post;
 
 /// Turns a rotary axis at rapid, where the tool stands.
@@ -27,7 +27,7 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
     }
     post.control.require(Act::Table)?;
     let chain = post.control.tables.chain();
-    let stands = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
+    let stands = post.path.rotary.unwrap_or_else(|| position::on_tape(post));
     let mut angles = stands;
     angles[index] = to;
     if !chain.goes(stands, angles) {

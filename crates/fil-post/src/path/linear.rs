@@ -1,15 +1,9 @@
 //! Straight motions: rapid, at feed, and as passes of a thread.
 
 use fil_diag::Result;
-use fil_machine::axes::{AxisSet, Position};
 
-use super::{
-    feed_rules, frame, mill_turn, rapid, reposition_rapid, rotary, scaled_lead, solution, thread,
-    tip_control, travel, turning,
-};
-use crate::control::word_address::motion::Motion;
+use super::{frame_begin, mill_turn, rotary, solution, straight, tip_control, travel};
 use crate::control::{family, full_turn};
-use crate::errors::PostCode;
 use crate::operation::{MotionKind, Target};
 use crate::post::Post;
 
@@ -48,66 +42,12 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
         rotary::follow(post);
     }
     match post.control.tables.travel_rules.is_empty() {
-        true => go(post, *target, kind)?,
+        true => straight::go(post, *target, kind)?,
         false => travel::carry_out(post, *target, kind)?,
     }
     post.control.tip.begins_unsaid = false;
     post.path.last.in_cut = !matches!(kind, MotionKind::Rapid(_));
     post.path.arrive(*target);
-    Ok(())
-}
-
-/// Makes a motion for which all is ready.
-///
-/// # Errors
-/// As [`carry_out`].
-#[inline(always)]
-pub(super) fn go(post: &mut Post, target: Target, kind: MotionKind) -> Result<()> {
-    let before = post.path.rotary;
-    let word = rotary::word_of(post, target);
-    let mut motion = Motion::new(Position::default(), AxisSet::ALL, word);
-    let solution = rotary::find_position(post, target, &mut motion.position)?;
-    rotary::establish(post, solution)?;
-    if post.control.is_compensated() {
-        rotary::refuse_compensated(post, before)?;
-    }
-    match kind {
-        MotionKind::Rapid(cause)
-            if post.control.tables.watches_rapids
-                && reposition_rapid::carry_out(post, before, target, cause)? => {}
-        MotionKind::Rapid(cause) => match feed_rules::of_short_rapid(post, &motion, target) {
-            Some(feed) => family::feed(&mut post.control, &motion, Some(&feed))?,
-            None if post.path.last.in_cut => rapid::out_of_cut(&mut post.control, &motion, cause)?,
-            None => rapid::rapid(&mut post.control, &motion, cause)?,
-        },
-        MotionKind::Feed => {
-            match rotary::turned(before, post.path.rotary) {
-                Some(before) if !rotary::warn_where_lost(post)? => {
-                    return turning::feed(post, before, &motion, target);
-                }
-                Some(before) => turning::from_elsewhere(post, before, &motion)?,
-                None if before.is_none() && post.path.rotary.is_some() => {
-                    turning::from_unsaid(post, &motion)?;
-                }
-                None => {}
-            }
-            match feed_rules::apply(post) {
-                true => feed_rules::line(post, &motion, target, None)?,
-                false => family::feed(&mut post.control, &motion, post.path.feed.as_ref())?,
-            }
-        }
-        MotionKind::Thread(lead) => {
-            if post.writes_tip() {
-                return PostCode::TipControl.err_with("a thread", tip_control::OUTSIDE);
-            }
-            rotary::refuse_thread(before.or_else(|| turning::unsaid(post)), post.path.rotary)?;
-            scaled_lead::refuse(&post.control, &thread::AXES, PostCode::Thread)?;
-            let counted = thread::counted_lead(post, lead, target)?;
-            let change = thread::counted_change(post, lead, &counted, target)?;
-            let motion = motion.of(AxisSet::LINEAR);
-            family::thread(&mut post.control, &motion, &counted, change)?;
-        }
-    }
     Ok(())
 }
 
@@ -125,7 +65,7 @@ fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Result<bool> {
         tip_control::say_by_vector(post, at_feed);
         tip_control::ready(post, target)?;
     } else if post.control.tables.frame_output {
-        frame::turn_to(post, target, at_feed)?;
+        frame_begin::turn_to(post, target, at_feed)?;
     }
     Ok(false)
 }

@@ -12,13 +12,14 @@ use fil_machine::locations as loc;
 use fil_machine::tables::MachineTables;
 use nalgebra::Point3;
 
+use super::position;
+use super::state::{Arrived, OnTape, Straightness};
 use super::tip::{certain_distance, distance, largest_distance, tip, tip_beside};
 use super::turning_feed::{PartFeed, STANDS, TurningFeed};
-use super::{mill_turn, rotary};
 use crate::control::family;
-use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
 use crate::operation::Target;
+use crate::operation::motion::Motion;
 use crate::post::Post;
 
 /// Most parts of one motion.
@@ -29,15 +30,6 @@ const MOST_CHORDS: u32 = 20_000;
 
 /// Parts are a little shorter than a first estimate asks for.
 const MARGIN: f64 = 1.02;
-
-/// What LINTOL has said.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Straightness {
-    /// LINTOL/t, in the unit of the program; `None` for that of the machine.
-    pub tolerance: Option<f64>,
-    /// LINTOL/OFF.
-    pub off: bool,
-}
 
 /// A motion that is to be divided.
 struct Turning<'a> {
@@ -52,38 +44,18 @@ struct Turning<'a> {
 }
 
 /// Where the axes stand before a motion.
-struct Start {
-    position: Position,
+pub(super) struct Start {
+    pub position: Position,
     /// The tip in the part, where the axes stand as the CL file has brought them.
     tip: Option<Point3<f64>>,
     /// The position as the tape has it, where the motion before has found it.
     on_tape: Option<OnTape>,
 }
 
-/// A position as the tape has it, and the tip there, in the part.
-#[derive(Clone, Copy, Debug)]
-struct OnTape {
-    position: Position,
-    tip: Point3<f64>,
-}
-
 /// The end of one part of a motion.
 struct Part {
     position: Position,
     on_tape: OnTape,
-}
-
-/// Where the last motion that turned the machine has brought it: the next one begins there.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Arrived {
-    /// State of the settings and of the unit that the positions hold for.
-    settings: (u32, bool),
-    /// The point in the part, after TRANS, and the rotary positions.
-    target: (Point3<f64>, [f64; 2]),
-    position: Position,
-    on_tape: OnTape,
-    /// The last output values of the axes behind it.
-    outputs: Position,
 }
 
 /// How far the tip may leave its line, in the unit of the program; `None` for as far
@@ -109,12 +81,9 @@ pub(super) fn tolerance(post: &Post) -> Result<Option<f64>> {
 #[inline(never)]
 pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Target) -> Result<()> {
     let start = stands(post, before);
-    if post.control.tables.mills() {
-        return mill_turn::turning_feed(post, start.position, to, target);
-    }
     let allowed = tolerance(post)?;
     let enough = allowed.map_or_else(|| usual(post), Ok)?;
-    let (end, _) = rotary::transformed(post, target);
+    let (end, _) = position::transformed(post, target);
     let turning = Turning::new(post, &start, to, end);
     let feed = TurningFeed::of(post)?;
     let least = feed.least_parts(turning.length())?;
@@ -129,7 +98,7 @@ pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Targ
     let way = turning.way_of_tip(from.tip, arrival.tip);
     let part = feed.between(&from.position, &arrival.position, way);
     part.warn_if_limited(post);
-    let word = rotary::word_of(post, target);
+    let word = position::word_of(post, target);
     let motion = Motion { scaled: Some(scaled), ..Motion::new(to, AxisSet::ALL, word) };
     write(post, &motion, &part)?;
     post.path.turning.arrived = Some(Arrived {
@@ -154,7 +123,7 @@ fn divided(
     allowed: Option<f64>,
     least: u32,
 ) -> Result<()> {
-    let word = rotary::word_of(post, target);
+    let word = position::word_of(post, target);
     let start = Start { position: from, tip: None, on_tape: None };
     let turning = Turning::new(post, &start, to, end);
     let feed = TurningFeed::of(post)?;
@@ -251,7 +220,7 @@ fn suffices(
     let mut from = start;
     for number in 1..=count {
         let target = at(f64::from(number) / f64::from(count));
-        let (point, axis) = rotary::transformed(post, target);
+        let (point, axis) = position::transformed(post, target);
         let angles = chain.solve(axis, [from[3], from[4]])?;
         let linear = chain.linear(point, angles);
         let to = [linear.x, linear.y, linear.z, angles[0], angles[1]];
@@ -274,7 +243,7 @@ pub(super) fn is_where_the_path_is(post: &Post, before: [f64; 2]) -> bool {
     }
     let point = post.path.point.unwrap_or_default();
     let (tip, _) =
-        rotary::transformed(post, Target { point, axis: post.path.axis.stands, word: 0 });
+        position::transformed(post, Target { point, axis: post.path.axis.stands, word: 0 });
     AxisSet::LINEAR.numbers().all(|n| {
         let least = post.control.tables.axis(n).resolution();
         post.control.stands(n).is_none_or(|at| (at - tip[n]).abs() <= least)
@@ -284,11 +253,11 @@ pub(super) fn is_where_the_path_is(post: &Post, before: [f64; 2]) -> bool {
 /// Where the axes stand: exactly where the CL file has brought them, unless the tape
 /// says that something else has moved them since.
 #[cfg_attr(not(target_family = "wasm"), inline(always))]
-fn stands(post: &Post, before: [f64; 2]) -> Start {
+pub(super) fn stands(post: &Post, before: [f64; 2]) -> Start {
     let tables = &post.control.tables;
     let point = post.path.point.unwrap_or_default();
     let target = Target { point, axis: post.path.axis.stands, word: 0 };
-    let (point, _) = rotary::transformed(post, target);
+    let (point, _) = position::transformed(post, target);
     let arrived = post.path.turning.arrived.as_ref();
     let arrived =
         arrived.filter(|there| there.target == (point, before) && there.settings == settings(post));

@@ -7,7 +7,7 @@ use super::{frame, rapid, rapid_lean, tip_control};
 use crate::control::machine_frame::{self, Before};
 use crate::control::needs::Act;
 use crate::control::word_address::cycle;
-use crate::control::word_address::motion::Motion;
+use crate::operation::motion::Motion;
 use crate::post::Post;
 
 /// Moves X, Y and Z to these positions, Z first where it goes up. Where the CL file stands

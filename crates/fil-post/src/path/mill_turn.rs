@@ -7,6 +7,7 @@
 mod crossing;
 mod cylinder;
 pub(super) mod hole;
+pub(super) mod live_tool;
 mod polar;
 
 use fil_diag::Result;
@@ -18,56 +19,21 @@ use fil_machine::modes::FeedMode;
 use fil_machine::{FunctionCode, Letter, letters};
 use nalgebra::{Point3, Vector3};
 
-use super::rotary::Solution;
-use super::{feed_rules, functions_of_others, rotary, thread};
+use super::{feed_rules, functions_of_others, position, rotary, thread};
 use crate::control::Control;
 use crate::control::needs::Act;
 use crate::control::sinumerik::{reader, transformation};
-use crate::control::word_address::motion::Motion;
 use crate::control::word_address::{modes, spindle};
 use crate::control::{family, full_turn};
 use crate::control_state::{ForeignBlock, Meaning, Rotation, Source, modal};
 use crate::errors::PostCode;
 use crate::operation::cycle::{CycleFeed, CycleKind};
+use crate::operation::motion::Motion;
 use crate::operation::{
     Arc, Feed, MotionKind, Operation, SideSpindle, Spindle, SpindleTurn, Target,
 };
 use crate::post::Post;
-
-/// Tool axes nearer than this are one.
-const SAME_AXIS: f64 = 1e-5;
-
-/// A tool nearer than this to the axis of the spindle leaves C open, mm or inch.
-const CENTER: f64 = 1e-9;
-
-const FULL: f64 = 360.0;
-
-/// How a live tool lies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Lie {
-    /// Along Z.
-    Axial,
-    /// Square to it.
-    Radial,
-}
-
-fn lie(axis: Vector3<f64>) -> Result<Lie> {
-    let axis = axis.normalize();
-    if (axis - Vector3::z()).norm() < SAME_AXIS {
-        return Ok(Lie::Axial);
-    }
-    if axis.z.abs() < SAME_AXIS {
-        return Ok(Lie::Radial);
-    }
-    PostCode::MillTurn.err(
-        "the tool axis lies neither along Z nor square to it, and no axis of the machine leans a tool",
-    )
-}
-
-/// The machine mills by Y.
-fn has_y(control: &Control) -> bool {
-    !control.tables.transforms && !control.tables.axis(1).is_off()
-}
+use live_tool::{CENTER, Lie, has_y, lie, position_of};
 
 /// Takes the machine from turning to milling or back.
 ///
@@ -158,54 +124,6 @@ fn limit_to_axes(post: &mut Post, feed: Feed, to: &Position) -> Feed {
     feed_rules::limit_to_axes(post, feed, way, length.map(f64::sqrt))
 }
 
-/// The positions of the axes for a live tool: C rounded as the tape has it, so that X, Y
-/// and Z belong to where it really stands.
-///
-/// # Errors
-/// A tool axis the machine can't reach; a way beside the axis of the spindle without Y.
-pub(super) fn position_of(
-    post: &Post,
-    point: Point3<f64>,
-    axis: Vector3<f64>,
-) -> Result<(Position, Solution)> {
-    let last = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post))[0];
-    let has_y = has_y(&post.control);
-    let asked = match lie(axis)? {
-        Lie::Axial if has_y || libm::hypot(point.x, point.y) < CENTER => last,
-        Lie::Axial => libm::atan2(point.y, point.x).to_degrees(),
-        Lie::Radial => libm::atan2(axis.y, axis.x).to_degrees(),
-    };
-    let tables = &post.control.tables;
-    let c = tables.axis(3).on_tape(within_travel(post, asked, last)?)?;
-    let mut linear = tables.chain().linear(point, [c, 0.0]);
-    if !has_y {
-        let half_digit = tables.axis(3).resolution().to_radians();
-        let most = libm::hypot(point.x, point.y) * half_digit + CENTER;
-        if linear.y.abs() > most.max(tables.axis(0).resolution()) {
-            return PostCode::MillTurn.err(format!(
-                "the tool would stand {:.4} beside the axis of the spindle, and the machine has no Y",
-                linear.y
-            ));
-        }
-        linear.y = 0.0;
-    }
-    Ok(([linear.x, linear.y, linear.z, c, 0.0], Solution::OfLiveTool([c, 0.0])))
-}
-
-/// The angle and whole turns on top that lies nearest to the last one within the travel.
-fn within_travel(post: &Post, angle: f64, last: f64) -> Result<f64> {
-    let Some(spindle) = &post.control.tables.chain().rotaries[0] else { return Ok(angle) };
-    let near = angle + FULL * ((last - angle) / FULL).round();
-    let allowed = |angle: &f64| {
-        spindle.min.is_none_or(|min| *angle >= min) && spindle.max.is_none_or(|max| *angle <= max)
-    };
-    let found = [0.0, FULL, -FULL, 2.0 * FULL, -2.0 * FULL].map(|turn| near + turn);
-    found.into_iter().find(allowed).ok_or_else(|| {
-        fil_machine::errors::MachineCode::AxisLimit
-            .diag(format!("{}{near:.3} lies outside the travel", spindle.letter))
-    })
-}
-
 /// What a motion of a live tool asks for before it is made; true where that made the
 /// motion itself.
 ///
@@ -213,7 +131,7 @@ fn within_travel(post: &Post, angle: f64, last: f64) -> Result<f64> {
 /// A thread, a feed a turn, and what polar interpolation refuses.
 #[cold]
 pub(super) fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Result<bool> {
-    let (point, axis) = rotary::transformed(post, target);
+    let (point, axis) = position::transformed(post, target);
     let axial = lie(axis)? == Lie::Axial;
     match kind {
         MotionKind::Thread(_) => return PostCode::MillTurn.err("a thread by a live tool"),
@@ -256,7 +174,7 @@ pub(super) fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Resu
         MotionKind::Rapid(cause) if !axial => {
             let (position, solution) = position_of(post, point, axis)?;
             rotary::establish(post, solution)?;
-            let word = rotary::word_of(post, target);
+            let word = position::word_of(post, target);
             let motion = Motion::new(position, AxisSet::ALL, word);
             crossing::rapid(&mut post.control, &motion, cause)?;
             post.path.arrive(target);
@@ -269,7 +187,7 @@ pub(super) fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Resu
 /// C must turn for an axial tool to come to a point, or X is not known.
 fn turns(post: &Post, point: Point3<f64>) -> bool {
     let Some(here) = post.path.point.filter(|_| post.path.rotary.is_some()) else { return true };
-    let here = rotary::transformed(post, Target { point: here, axis: Vector3::z(), word: 0 }).0;
+    let here = position::transformed(post, Target { point: here, axis: Vector3::z(), word: 0 }).0;
     (here - point).xy().norm() > CENTER
 }
 
@@ -302,7 +220,7 @@ pub(super) fn turning_feed(
     to: Position,
     target: Target,
 ) -> Result<()> {
-    let (_, axis) = rotary::transformed(post, target);
+    let (_, axis) = position::transformed(post, target);
     if lie(axis)? == Lie::Axial {
         return PostCode::Polar.err(
             "C would turn in a motion at feed of a tool along Z; polar interpolation \
@@ -461,7 +379,7 @@ fn refuse_axes_of_others(control: &Control, operation: &Operation) -> Result<()>
 pub(super) fn before_arc(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     refuse_feed_a_turn(post.path.feed.map(|feed| feed.mode))?;
     cylinder::end(post)?;
-    let axial = lie(rotary::transformed(post, target).1)? == Lie::Axial;
+    let axial = lie(position::transformed(post, target).1)? == Lie::Axial;
     match (axial, post.control.tables.is_polar()) {
         (true, true) => {
             full_turn::refuse_clamped(&post.control, AxisSet::XY)?;

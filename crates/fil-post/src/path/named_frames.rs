@@ -5,6 +5,7 @@ use fil_cl::record::{Word, kind};
 use nalgebra::{Matrix3, Matrix3x4, Vector3};
 
 use super::{Statement, Transformation};
+use fil_diag::Result;
 
 /// Two frames this near in each of their numbers are the same: CAM systems write 4 to 10 digits.
 const SAME: f64 = 1e-6;

@@ -12,9 +12,9 @@ use crate::control::Control;
 use crate::control::family;
 use crate::control::place::{cross_unknown, cross_unknown_way};
 use crate::control::skip::refuse_level;
-use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::repeat;
 use crate::control_state::{Levels, Place, modal};
+use crate::operation::motion::{Motion, RapidCode};
 
 /// Values of the tape nearer than this are one, mm, inch or degrees.
 const SAME: f64 = 1e-6;

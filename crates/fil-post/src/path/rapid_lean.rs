@@ -11,10 +11,10 @@ use super::tip::{head, tip};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::place::cross_unknown;
-use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{family, heads};
 use crate::control_state::Place;
 use crate::errors::PostCode;
+use crate::operation::motion::{Motion, RapidCode};
 
 /// Directions are one where the cosine between them is less than this below 1.
 const PARALLEL: f64 = 1e-8;

@@ -8,8 +8,8 @@ use nalgebra::{Point3, Vector3};
 
 use super::tip::{between, nearest, tip};
 use crate::control::Control;
-use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
+use crate::operation::motion::Motion;
 
 /// Points of each block at which the tip is looked at.
 const SAMPLES: u32 = 32;

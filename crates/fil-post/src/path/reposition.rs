@@ -14,15 +14,16 @@ use fil_machine::locations::{self as loc, ReposFeedMethod};
 use fil_machine::modes::FeedMode;
 use nalgebra::{Point3, Vector3};
 
-use super::travel::Way;
-use super::turning::{apart, on_the_way, spelled};
-use super::{linearization, rapid, rotary};
+use super::pole::{apart, spelled};
+use super::turning::on_the_way;
+use super::way::Way;
+use super::{linearization, position, rapid};
 use crate::control::needs::{self, Act};
-use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::spindle;
 use crate::control::{Control, family};
 use crate::editing::Ways;
 use crate::errors::PostCode;
+use crate::operation::motion::{Motion, RapidCode};
 use crate::operation::{Coolant, Feed, Operation, Stop, Target};
 use crate::post::Post;
 
@@ -90,10 +91,10 @@ pub(super) fn feed(
             spelled(free)
         ));
     };
-    let (_, end_axis) = rotary::transformed(post, target);
+    let (_, end_axis) = position::transformed(post, target);
     let start = start(post, before)?;
-    let (from, _) = rotary::transformed(post, Target { point: start, ..target });
-    let (to, _) = rotary::transformed(post, target);
+    let (from, _) = position::transformed(post, Target { point: start, ..target });
+    let (to, _) = position::transformed(post, target);
     let way = Way { line: [from, to], turn: [before, free] };
     let limit = share_to_limit(post.control.tables.chain(), before, free);
     let Some(change) = find(post, &way, limit, end_axis) else {
@@ -114,7 +115,7 @@ pub(super) fn feed(
 /// No other positions keep within the travel; no retract is known; all that the motions refuse.
 pub(super) fn at_travel(post: &mut Post, way: &Way, target: Target) -> Result<bool> {
     let Some(by_macro) = by_macro(post) else { return Ok(false) };
-    let (_, end_axis) = rotary::transformed(post, target);
+    let (_, end_axis) = position::transformed(post, target);
     let start = start(post, way.turn[0])?;
     let limit = way.share_inside(&post.control.tables);
     let Some(change) = find(post, way, limit, end_axis) else {
@@ -154,20 +155,20 @@ fn by_way_of(
     target: Target,
     by_macro: bool,
 ) -> Result<()> {
-    let (end, end_axis) = rotary::transformed(post, target);
+    let (end, end_axis) = position::transformed(post, target);
     let middle = Target { point: start + (target.point - start) * change.share, ..target };
-    let (place, _) = rotary::transformed(post, middle);
+    let (place, _) = position::transformed(post, middle);
     let plan = Plan::settle(post, place, change, by_macro)?;
     if change.share > NO_PART {
-        let position = rotary::words_at(post, place, change.from)?;
+        let position = position::words_at(post, place, change.from)?;
         let motion = Motion::new(position, AxisSet::ALL, 0);
         on_the_way(post, change.before, &motion, Target { word: 0, ..middle })?;
         post.path.point = Some(middle.point);
     }
     out_and_back(post, place, change, &plan, end_axis)?;
-    let position = rotary::words_at(post, end, change.end)?;
+    let position = position::words_at(post, end, change.end)?;
     post.path.rotary = Some(change.end);
-    let word = rotary::word_of(post, target);
+    let word = position::word_of(post, target);
     on_the_way(post, change.to, &Motion::new(position, AxisSet::ALL, word), target)
 }
 
@@ -354,16 +355,16 @@ fn out_and_back(
     }
     let own = post.control.tables.chain().axis_at(change.from);
     let out = if plan.ways.along_next { next_axis.normalize() } else { own };
-    let away = rotary::words_at(post, place + out * plan.retract, change.from)?;
+    let away = position::words_at(post, place + out * plan.retract, change.from)?;
     straight(post, away, plan.feed_out)?;
     let flows = stop_around(post, plan)?;
     turn(post, place + own * plan.retract, change)?;
     if plan.approach < plan.retract {
-        let near = rotary::words_at(post, place + own * plan.approach, change.to)?;
+        let near = position::words_at(post, place + own * plan.approach, change.to)?;
         straight(post, near, None)?;
     }
     start_again(post, flows)?;
-    let back = rotary::words_at(post, place, change.to)?;
+    let back = position::words_at(post, place, change.to)?;
     straight(post, back, plan.feed_back)?;
     post.path.rotary = Some(change.to);
     Ok(())
@@ -390,7 +391,7 @@ pub(super) fn straight(post: &mut Post, to: Position, feed: Option<Feed>) -> Res
 
 /// Turns the rotary axes where the tool is out.
 fn turn(post: &mut Post, place: Point3<f64>, change: &Change) -> Result<()> {
-    let position = rotary::words_at(post, place, change.to)?;
+    let position = position::words_at(post, place, change.to)?;
     let motion = Motion::new(position, AxisSet::ALL, 0);
     let of_tip = post.writes_tip();
     let control = &mut post.control;

@@ -6,14 +6,14 @@ use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 use fil_machine::locations::{self as loc, ReposRapidMethod, ReposRapidRetract};
 
+use super::pole::{apart, spelled};
 use super::reposition::{self, Change, Plan, start_again, stop_around, straight};
-use super::turning::{apart, spelled};
-use super::{Since, linearization, rapid, rotary};
+use super::{Since, linearization, position, rapid};
 use crate::cause::Cause;
 use crate::control::needs::Act;
-use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
 use crate::operation::Target;
+use crate::operation::motion::Motion;
 use crate::post::Post;
 
 /// Makes a rapid motion that takes other positions than the nearest to where the rotary axes
@@ -33,7 +33,7 @@ pub(super) fn carry_out(
     let (Some(before), Some(now), false) = (before, post.path.rotary, in_frame) else {
         return Ok(false);
     };
-    let (_, axis) = rotary::transformed(post, target);
+    let (_, axis) = position::transformed(post, target);
     let nearest = post.control.tables.chain().nearest_anywhere(axis, before);
     let Some(nearest) = nearest.filter(|nearest| apart(*nearest, now)) else { return Ok(false) };
     if post.control.commons.read(loc::REPOS_RAPID_WARNING) {
@@ -85,24 +85,24 @@ fn out_and_to(
     cause: Cause,
 ) -> Result<()> {
     post.control.require(Act::Reposition)?;
-    let (from, _) = rotary::transformed(post, start);
-    let (to, next_axis) = rotary::transformed(post, target);
+    let (from, _) = position::transformed(post, start);
+    let (to, next_axis) = position::transformed(post, target);
     let plan = Plan::settle(post, from, change, by_macro)?;
     let next = next_axis.normalize();
     let own = post.control.tables.chain().axis_at(change.from);
     let out = if plan.ways.along_next { next } else { own };
     post.path.rotary = Some(change.from);
-    let away = rotary::words_at(post, from + out * plan.retract, change.from)?;
+    let away = position::words_at(post, from + out * plan.retract, change.from)?;
     straight(post, away, plan.feed_out)?;
     let flows = stop_around(post, &plan)?;
-    let over = rotary::words_at(post, to + next * plan.retract, change.to)?;
+    let over = position::words_at(post, to + next * plan.retract, change.to)?;
     rapid::rapid(&mut post.control, &Motion::new(over, AxisSet::ALL, 0), cause)?;
     post.path.rotary = Some(change.to);
     if plan.approach < plan.retract {
-        let near = rotary::words_at(post, to + next * plan.approach, change.to)?;
+        let near = position::words_at(post, to + next * plan.approach, change.to)?;
         straight(post, near, None)?;
     }
     start_again(post, flows)?;
-    let end = rotary::words_at(post, to, change.to)?;
+    let end = position::words_at(post, to, change.to)?;
     straight(post, end, plan.feed_back)
 }

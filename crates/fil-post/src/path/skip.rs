@@ -7,22 +7,10 @@
 use fil_diag::Result;
 use fil_machine::letters;
 
+use super::state::Said;
 use crate::control::{Control, family};
 use crate::operation::{Operation, Spindle};
 use crate::post::Post;
-
-/// The last operation of each kind in blocks that can be skipped, in their order.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Said(Vec<Operation>);
-
-impl Said {
-    /// Keeps an operation that stays in force.
-    fn keep(&mut self, control: &Control, operation: &Operation) {
-        let Some(kind) = kind(control, operation) else { return };
-        self.0.retain(|other| self::kind(control, other) != Some(kind));
-        self.0.push(operation.clone());
-    }
-}
 
 /// Which operations come in place of each other; `None` for one that leaves nothing in force.
 fn kind(control: &Control, operation: &Operation) -> Option<u8> {
@@ -72,4 +60,13 @@ fn again(control: &mut Control, operation: Operation) -> Result<()> {
         other => other,
     };
     family::write(control, operation)
+}
+
+impl Said {
+    /// Keeps an operation that stays in force.
+    fn keep(&mut self, control: &Control, operation: &Operation) {
+        let Some(kind) = kind(control, operation) else { return };
+        self.0.retain(|other| self::kind(control, other) != Some(kind));
+        self.0.push(operation.clone());
+    }
 }

@@ -10,8 +10,8 @@ use fil_machine::locations as loc;
 use fil_machine::tables::MachineTables;
 use nalgebra::{Point3, Vector3};
 
-use super::rotary;
-use super::turning::{off_its_plane, spelled};
+use super::pole::{off_its_plane, spelled};
+use super::position;
 use crate::errors::PostCode;
 use crate::operation::{MotionKind, Target};
 use crate::post::Post;
@@ -38,14 +38,15 @@ pub(super) fn choose(post: &mut Post, target: Target, kind: MotionKind) {
     if !matches!(kind, MotionKind::Rapid(_)) || post.control.tables.mills() {
         return;
     }
-    let (point, axis) = rotary::transformed(post, target);
-    let last = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
+    let (point, axis) = position::transformed(post, target);
+    let last = post.path.rotary.unwrap_or_else(|| position::on_tape(post));
     // The first of them is the motion at hand.
     let mut own = target.axis;
     let behind = coming.into_iter().skip(1).map(|next| {
         own = next.axis.map_or(own, Vector3::from);
         let given = Point3::from(next.point.unwrap_or_default());
-        let (point, axis) = rotary::transformed(post, Target { point: given, axis: own, word: 0 });
+        let (point, axis) =
+            position::transformed(post, Target { point: given, axis: own, word: 0 });
         (next.point.map(|_| point), axis)
     });
     let ahead: Vec<Ahead> = std::iter::once((Some(point), axis)).chain(behind).collect();

@@ -1,16 +1,15 @@
 //! What the CL file has said so far, and where it has brought the tool.
 
-use fil_machine::Unit;
 use fil_machine::axis_chain::Turn;
-use nalgebra::{Point3, Vector3};
+use fil_machine::{FunctionCode, Unit};
+use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::{
-    Coming, NamedFrames, Statement, Straightness, Transformation, frame, linearization, long_arc,
-    sense, skip, thread, turned_apart,
-};
+use super::arc_parts::Rest;
+use super::{Coming, NamedFrames, Statement, Transformation, sense};
 use crate::cause::Cause;
 use crate::operation::cycle::{AboveHoles, Cycle};
-use crate::operation::{Arc, Feed, NextTools, Target};
+use crate::operation::{Arc, Feed, Lead, NextTools, Operation, SpindleSpeed, Target, Thread};
+use fil_machine::axes::Position;
 
 /// Where the CL file stands: point and axis, and what its records asked for.
 #[derive(Clone, Debug, Default)]
@@ -31,7 +30,7 @@ pub struct Path {
     /// How the machine turns from there.
     pub(crate) turning: Turning,
     /// The tilted frame that motions were last written in.
-    pub(crate) frame: Option<frame::TiltedFrame>,
+    pub(crate) frame: Option<TiltedFrame>,
     /// The radius of the cylinder in force about the spindle of a mill-turn machine.
     pub(crate) cylinder: Option<f64>,
     /// RAPID was given, by this record: the next motion is rapid.
@@ -63,7 +62,7 @@ pub struct Path {
     /// What tells which way arcs turn.
     pub(crate) sense: Sense,
     /// What was said in blocks that can be skipped.
-    pub(super) skipped: skip::Said,
+    pub(super) skipped: Said,
 }
 
 /// The tool axis of the CL file.
@@ -116,11 +115,11 @@ pub(crate) struct Turning {
     /// Positions that the look-ahead has chosen for the rapid motion at hand, degrees.
     pub chosen: Option<[f64; 2]>,
     /// Where the last motion that turned the machine has brought it.
-    pub arrived: Option<linearization::Arrived>,
+    pub arrived: Option<Arrived>,
     /// How far the tip may leave its line while the machine turns.
     pub straightness: Straightness,
     /// The tool and the zero with which the machine was turned first.
-    pub turned_with: turned_apart::TurnedWith,
+    pub turned_with: TurnedWith,
 }
 
 /// A CIRCLE that takes many blocks.
@@ -129,22 +128,22 @@ pub(crate) struct LongArc {
     /// The lines written now are its chords.
     pub in_chords: bool,
     /// What is left of one that is on the tape in part.
-    pub rest: Option<Box<long_arc::Rest>>,
+    pub rest: Option<Box<Rest>>,
 }
 
 /// What THREAD, PITCH and OP/THREAD ask for.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Threads {
     /// Each feed motion is a pass of this thread.
-    pub passes: Option<thread::Passes>,
+    pub passes: Option<Passes>,
     /// The lead that PITCH has given for threads that follow.
-    pub pitch: Option<thread::Pitch>,
+    pub pitch: Option<Pitch>,
     /// Where the last pass has ended, from where the next motion may go on, and the number of blocks then.
     pub pass_end: Option<(Point3<f64>, u64)>,
     /// A whole thread is being cut: its rapid motions are those of the post.
     pub in_whole: bool,
     /// A whole thread that waits for its points, or has them.
-    pub awaited: Option<Box<thread::Awaited>>,
+    pub awaited: Option<Box<Awaited>>,
 }
 
 /// What has moved the points by three numbers.
@@ -254,3 +253,109 @@ impl Path {
         }
     }
 }
+
+/// The frame that motions are written in.
+#[derive(Clone, Copy, Debug)]
+pub struct TiltedFrame {
+    /// Tool axis in the part.
+    pub(super) axis: Vector3<f64>,
+    /// Where the rotary axes stand, degrees.
+    pub(super) angles: [f64; 2],
+    /// Turns directions of the frame, as the tape has it, into those of the part; `None`
+    /// where the machine stands at zero and the control is in no frame.
+    pub(super) turn: Option<Rotation3<f64>>,
+}
+
+/// What LINTOL has said.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Straightness {
+    /// LINTOL/t, in the unit of the program; `None` for that of the machine.
+    pub tolerance: Option<f64>,
+    /// LINTOL/OFF.
+    pub off: bool,
+}
+
+/// Where the last motion that turned the machine has brought it: the next one begins there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Arrived {
+    /// State of the settings and of the unit that the positions hold for.
+    pub(super) settings: (u32, bool),
+    /// The point in the part, after TRANS, and the rotary positions.
+    pub(super) target: (Point3<f64>, [f64; 2]),
+    pub(super) position: Position,
+    pub(super) on_tape: OnTape,
+    /// The last output values of the axes behind it.
+    pub(super) outputs: Position,
+}
+
+/// A position as the tape has it, and the tip there, in the part.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OnTape {
+    pub(super) position: Position,
+    pub(super) tip: Point3<f64>,
+}
+
+/// The tool and the zero with which the machine was turned first.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct TurnedWith {
+    pub(super) tool: Option<i64>,
+    /// The tool for which levels of the machine's Z were counted while a head leaned it.
+    pub(super) tool_of_levels: Option<i64>,
+    pub(super) zero: Option<FunctionCode>,
+    /// A head has turned the tool across Z, and so it was said of its length.
+    pub(super) lies_across: bool,
+}
+
+/// A lead for threads that follow, and what it gains in each turn, mm or inch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pitch {
+    pub lead: Lead,
+    pub change: f64,
+}
+
+/// A thread of which each feed motion is a pass.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Passes {
+    pub lead: Lead,
+    /// What the lead gains in each turn, mm or inch; below zero it loses.
+    pub change: f64,
+    /// How the spindle turned in the first pass.
+    pub turns: Option<Turns>,
+}
+
+impl Passes {
+    /// The passes of a thread that is new.
+    pub fn new(lead: Lead, change: f64) -> Passes {
+        Passes { lead, change, turns: None }
+    }
+}
+
+/// How the spindle turns: its speed as SPINDL asked for it, and clockwise or not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Turns {
+    pub(super) speed: Option<SpindleSpeed>,
+    /// The highest speed, where the control holds this one to it.
+    pub(super) held: Option<f64>,
+    pub(super) clockwise: Option<bool>,
+    /// It is the second spindle of the lathe.
+    pub(super) is_side: bool,
+}
+
+/// OP/THREAD with depth and passes: what it asks for, and the points that have come.
+#[derive(Clone, Debug)]
+pub struct Awaited {
+    /// The thread, but for its points and its side.
+    pub thread: Thread,
+    /// The thread runs across a face.
+    pub on_face: bool,
+    /// Where the tool stood before.
+    pub from: Option<Target>,
+    /// Where the crest begins.
+    pub start: Option<Target>,
+    /// Both points have come.
+    pub is_cut: bool,
+}
+
+/// The last operation of each kind in blocks that can be skipped, in their order.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Said(pub(super) Vec<Operation>);

@@ -14,15 +14,16 @@ use fil_machine::commons::EMPTY;
 use fil_machine::locations::{self as loc, ControlFamily, RotaryTipControl};
 use nalgebra::{Point3, Vector3};
 
-use super::rotary::Solution;
-use super::turning::spelled;
-use super::{frame, frame_end, rapid, rotary, tip, turned_apart};
+use super::height::{pose, slides};
+use super::pole::spelled;
+use super::position::Solution;
+use super::{frame, frame_end, position, rapid, tip, turned_apart};
 use crate::control::needs::Act;
-use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{Control, Function};
 use crate::control::{family, machine_frame, vectors};
 use crate::control_state::{Compensation, Meaning, modal};
 use crate::errors::PostCode;
+use crate::operation::motion::{Motion, RapidCode};
 use crate::operation::{Operation, Target};
 use crate::post::Post;
 
@@ -43,7 +44,7 @@ pub(super) fn ready(post: &mut Post, target: Target) -> Result<()> {
     if post.control.state.is(modal::TCP, true) {
         return Ok(());
     }
-    let (_, axis) = rotary::transformed(post, target);
+    let (_, axis) = position::transformed(post, target);
     begin(post, axis)
 }
 
@@ -57,7 +58,7 @@ pub(super) fn position_of(
     point: Point3<f64>,
     axis: Vector3<f64>,
 ) -> Result<(Position, Solution)> {
-    let last = rotary::nearest_to(post);
+    let last = position::nearest_to(post);
     let tables = &post.control.tables;
     let (angles, free) = tables.chain().solve_with_free(axis, last)?;
     let linear = tables.chain().linear(point, angles);
@@ -81,7 +82,7 @@ pub(super) fn say_by_vector(post: &mut Post, at_feed: bool) {
 /// # Errors
 /// It takes no angles.
 fn takes_vector(post: &Post, angles: [f64; 2], axis: Vector3<f64>) -> Result<bool> {
-    let stands = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
+    let stands = post.path.rotary.unwrap_or_else(|| position::on_tape(post));
     let tables = &post.control.tables;
     let solutions = tables.chain().solutions(axis, stands);
     if vectors::stand_known(&post.control) && vectors::say_the_same(&solutions, stands, angles) {
@@ -185,7 +186,7 @@ fn turn_to_first_axis(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     if !(anywhere && control.tip.is_away) {
         return Ok(());
     }
-    let angles = control.tables.chain().solve(axis, rotary::nearest_to(post))?;
+    let angles = control.tables.chain().solve(axis, position::nearest_to(post))?;
     let position = [0.0, 0.0, 0.0, angles[0], angles[1]];
     let motion = Motion::new(position, AxisSet::ROTARY, 0);
     let cause = post.control.block.cause.whole();
@@ -275,32 +276,6 @@ pub fn end(control: &mut Control) -> Result<()> {
         control.await_length(control.tip.offset);
     }
     Ok(())
-}
-
-/// Where the tip stands in the part, and the rotary axes, as the tape says it; `None` where that
-/// is not known.
-fn pose(control: &Control) -> Option<(Point3<f64>, [f64; 2])> {
-    let mut position = Position::default();
-    for number in control.tables.present().numbers() {
-        let letter = control.tables.axis(number).letter;
-        let said = control.axis_position(number).filter(|_| control.state.has_last(letter));
-        let leans = control.tip.leans.filter(|_| number > 2).map(|leans| leans[number - 3]);
-        // A word that could be a full turn is not said again where the axis stands.
-        let stands = || control.stands(number).filter(|_| number > 2);
-        position[number] = said.or(leans).or_else(stands)?;
-    }
-    let [x, y, z, first, second] = position;
-    Some((Point3::new(x, y, z), [first, second]))
-}
-
-/// Where X, Y and Z of the machine stand under tool-tip control; `None` where that is not known.
-fn slides(control: &Control) -> Option<Point3<f64>> {
-    pose(control).map(|(tip, angles)| control.tables.chain().linear(tip, angles))
-}
-
-/// Z of the machine under tool-tip control, mm or inch; `None` where the tape does not say it.
-pub fn machine_height(control: &Control) -> Option<f64> {
-    slides(control).map(|slides| slides.z)
 }
 
 /// How far the tool goes up before G49, mm or inch; `None` for a control at which it may stay.

@@ -4,24 +4,20 @@
 use fil_diag::Result;
 use fil_machine::Commons;
 use fil_machine::axes::{AxisSet, Position};
-use fil_machine::locations::{self as loc, ControlFamily, ToolChangeBlock};
-use fil_machine::modes::Plane;
+use fil_machine::locations::{self as loc, ToolChangeBlock};
 use fil_machine::user_blocks::{self, AroundChange, UserBlocks};
 
-use super::{frame, frame_end, rapid, rapid_lean, tip_control};
+use super::{frame, frame_end, rapid, rapid_lean, tip_control, turned_apart};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
 use crate::control::machine_frame::{self, Before};
-use crate::control::word_address::motion::Motion;
 use crate::control::word_address::tool;
-use crate::control_state::{Place, modal};
+use crate::control_state::Place;
 use crate::errors::PostCode;
+use crate::operation::motion::Motion;
 use crate::operation::{NextTools, Operation, ToolChange};
 use crate::post::Post;
-
-/// Directions are one where the cosine between them is less than this below 1.
-const PARALLEL: f64 = 1e-9;
 
 /// True for a machine whose tool changes depend on those behind them.
 pub fn looks_ahead(commons: &Commons) -> bool {
@@ -56,7 +52,7 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     if !tool::prepare(control, &wanted)? {
         return Ok(());
     }
-    warn_of_length(control);
+    turned_apart::warn_of_length(control);
     leave_part(post)?;
     let control = &mut post.control;
     tip_control::end(control)?;
@@ -97,40 +93,6 @@ fn leave_part(post: &mut Post) -> Result<()> {
     }
     tip_control::settle_level(post)?;
     frame_end::go_up_to(post, level)
-}
-
-/// Warns of a tool that lies across Z on a control that counts its length along Z, and that no
-/// head turns upright.
-fn warn_of_length(control: &mut Control) {
-    let chain = control.tables.chain();
-    if chain.has_heads() || chain.tool.z > 1.0 - PARALLEL || !counts_length(control) {
-        return;
-    }
-    say_length_lies_across(control);
-}
-
-/// The control counts the length of the tool along an axis that the tool does not lie along where
-/// all heads stand at zero, or may lean away from.
-pub(super) fn counts_length(control: &Control) -> bool {
-    let chain = control.tables.chain();
-    match control.tables.family {
-        ControlFamily::WordAddress => {
-            let calls = control.commons.read(loc::TOOL_LENGTH_FROM_TOOL);
-            calls && control.code_if_any(loc::TOOL_LENGTH_CODE).is_some()
-        }
-        // A SINUMERIK counts it square to the plane in force.
-        ControlFamily::Sinumerik => {
-            let along = |plane: Plane| chain.tool[plane.normal()] >= 1.0 - PARALLEL;
-            chain.has_heads() || control.state.get(modal::PLANE).is_none_or(|plane| !along(plane))
-        }
-        ControlFamily::Klartext => true,
-    }
-}
-
-/// Warns of a length that the control counts across the tool.
-pub(super) fn say_length_lies_across(control: &mut Control) {
-    let message = "the control counts the length of the tool along Z, which the tool lies across";
-    control.warnings.add(PostCode::LengthAcross, message.to_string());
 }
 
 /// The lists of blocks before and after this change: the first, one between or the last.

@@ -5,27 +5,17 @@
 use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::axis_chain::Carries;
-use fil_machine::locations as loc;
+use fil_machine::locations::{self as loc, ControlFamily};
 
-use super::{frame, rapid_lean, tool_change};
+use super::{frame, rapid_lean};
 use crate::control::Control;
 use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::post::Post;
+use fil_machine::modes::Plane;
 
 /// A smaller turn of a rotary axis counts as none, degrees.
 const STILL: f64 = 1e-9;
-
-/// The tool and the zero with which the machine was turned first.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct TurnedWith {
-    tool: Option<i64>,
-    /// The tool for which levels of the machine's Z were counted while a head leaned it.
-    tool_of_levels: Option<i64>,
-    zero: Option<FunctionCode>,
-    /// A head has turned the tool across Z, and so it was said of its length.
-    lies_across: bool,
-}
 
 /// Takes the tool and the zero with which the machine is turned first, and refuses positions of a
 /// turned machine for another tool, or another zero, than those.
@@ -118,8 +108,8 @@ fn warn_of_length_across(post: &mut Post, angles: [f64; 2]) {
     let control = &mut post.control;
     let tool = control.tables.chain().tool_at(angles);
     let has_tool = control.state.get(modal::TOOL).is_some();
-    if has_tool && tool.z < rapid_lean::LEAST_RISE && tool_change::counts_length(control) {
-        tool_change::say_length_lies_across(control);
+    if has_tool && tool.z < rapid_lean::LEAST_RISE && counts_length(control) {
+        say_length_lies_across(control);
         post.path.turning.turned_with.lies_across = true;
     }
 }
@@ -129,4 +119,41 @@ fn zero(control: &Control) -> Option<FunctionCode> {
     let is_unsaid = !control.state.has_doubts();
     let first = || control.code_if_any(loc::FIXTURE_MIN_CODE).filter(|_| is_unsaid);
     control.state.get(modal::WORK_OFFSET).or_else(first)
+}
+
+/// The control counts the length of the tool along an axis that the tool does not lie along where
+/// all heads stand at zero, or may lean away from.
+fn counts_length(control: &Control) -> bool {
+    let chain = control.tables.chain();
+    match control.tables.family {
+        ControlFamily::WordAddress => {
+            let calls = control.commons.read(loc::TOOL_LENGTH_FROM_TOOL);
+            calls && control.code_if_any(loc::TOOL_LENGTH_CODE).is_some()
+        }
+        // A SINUMERIK counts it square to the plane in force.
+        ControlFamily::Sinumerik => {
+            let along = |plane: Plane| chain.tool[plane.normal()] >= 1.0 - PARALLEL;
+            chain.has_heads() || control.state.get(modal::PLANE).is_none_or(|plane| !along(plane))
+        }
+        ControlFamily::Klartext => true,
+    }
+}
+
+/// Warns of a length that the control counts across the tool.
+fn say_length_lies_across(control: &mut Control) {
+    let message = "the control counts the length of the tool along Z, which the tool lies across";
+    control.warnings.add(PostCode::LengthAcross, message.to_string());
+}
+
+/// Directions are one where the cosine between them is less than this below 1.
+const PARALLEL: f64 = 1e-9;
+
+/// Warns of a tool that lies across Z on a control that counts its length along Z, and that no
+/// head turns upright.
+pub(super) fn warn_of_length(control: &mut Control) {
+    let chain = control.tables.chain();
+    if chain.has_heads() || chain.tool.z > 1.0 - PARALLEL || !counts_length(control) {
+        return;
+    }
+    say_length_lies_across(control);
 }

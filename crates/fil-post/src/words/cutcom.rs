@@ -5,8 +5,8 @@ use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 use fil_machine::modes::Plane;
 
+use crate::control::length_plane::usual_plane;
 use crate::control::needs::Act;
-use crate::control::word_address::compensation::usual_plane;
 use crate::control_state::Compensation;
 use crate::items::Items;
 use crate::operation::{CutterCompensation, Operation};

@@ -5,9 +5,9 @@ use fil_diag::Result;
 use nalgebra::Vector3;
 
 use super::{csys, goto};
-use crate::dispatch::POINT;
 use crate::errors::PostCode;
 use crate::items::Items;
+use crate::operation::POINT;
 use crate::operation::Target;
 use crate::path::thread;
 use crate::post::Post;

@@ -8,11 +8,10 @@ use nalgebra::{Point3, Vector3};
 use super::{csys, home};
 use crate::control::word_address::spindle;
 use crate::control_state::{Rotation, modal};
-use crate::dispatch::checked_axis;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{MotionKind, Operation, Target};
-use crate::path::{Since, carry_out, linear, thread};
+use crate::path::{Since, carry_out, linear, thread, thread_points};
 use crate::post::Post;
 
 /// Levels nearer than this are one level, mm or inch.
@@ -86,7 +85,7 @@ pub fn drills(post: &Post) -> bool {
 #[inline]
 pub fn straight(post: &mut Post, target: Target) -> Result<()> {
     match take_kind_of_motion(post) {
-        MotionKind::Thread(lead) => thread::point(post, target, lead),
+        MotionKind::Thread(lead) => thread_points::point(post, target, lead),
         // The most frequent operation is carried out without being made: its copy would have
         // to wait for the target, which was written a moment ago.
         kind => {
@@ -170,4 +169,24 @@ pub fn refuse_waiting_arc(post: &Post) -> Result<()> {
         return PostCode::ArcEnd.err("another motion came before the GOTO");
     }
     Ok(())
+}
+
+/// A tool axis may be this far from length 1, unless MULTAX is on.
+const AXIS_LENGTH: f64 = 0.01;
+
+/// A tool axis that is one.
+///
+/// # Errors
+/// As [`target`].
+pub(crate) fn checked_axis(post: &Post, axis: Vector3<f64>) -> Result<Vector3<f64>> {
+    let length = axis.norm();
+    let near = (length - 1.0).abs() <= AXIS_LENGTH;
+    let on = post.path.multax == Some(true);
+    if !(near || (on && length > AXIS_LENGTH)) {
+        return PostCode::AxisLength.err(format!("a tool axis of length {length:.4}"));
+    }
+    if post.path.multax == Some(false) && (axis - Vector3::z()).amax() > AXIS_LENGTH {
+        return PostCode::AxisLength.err("a tool axis other than 0,0,1 after MULTAX/OFF");
+    }
+    Ok(axis)
 }

@@ -10,7 +10,7 @@ use super::thread::{lead, springs_of, starts, usual_clearance};
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{Lead, Target, Thread, ThreadPasses, ThreadSide};
-use crate::path::thread::{self, Awaited, Passes};
+use crate::path::{Awaited, Passes, thread};
 use crate::post::Post;
 
 /// An angle of the cone nearer to that of the two points is the same, degrees.

@@ -13,7 +13,7 @@ use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::thread_shape::MOST_STARTS;
 use crate::operation::{Lead, Operation, Target, Thread, ThreadPasses, ThreadSide};
-use crate::path::thread::{Passes, Pitch};
+use crate::path::{Passes, Pitch};
 use crate::path::{carry_out, thread};
 use crate::post::Post;
 

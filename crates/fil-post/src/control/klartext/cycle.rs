@@ -17,12 +17,12 @@ use super::line;
 use super::motion;
 use super::phrase::Head;
 use crate::block::named;
-use crate::control::family::refuse;
-use crate::control::word_address::motion::{self as words, Motion};
+use crate::control::word_address::motion as words;
 use crate::control::{Control, tap};
 use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
+use crate::operation::motion::Motion;
 
 /// By which 203 lifts to break chips, and 205 stops before the last depth, mm.
 const GAP: f64 = 0.2;
@@ -123,13 +123,13 @@ fn values(control: &Control, cycle: &Cycle, hole: &Hole) -> Result<Values> {
     let second = below(hole.rest())?;
     let digit = axis.length(axis.resolution()).abs() / 2.0;
     if bottom > 0.0 {
-        return refuse("a hole that goes up on the tape (scale.z below zero)");
+        return PostCode::Family.err("a hole that goes up on the tape (scale.z below zero)");
     }
     if clear < -digit {
-        return refuse("a R level below the surface of the hole (CLEAR below zero)");
+        return PostCode::Family.err("a R level below the surface of the hole (CLEAR below zero)");
     }
     if second < clear - digit {
-        return refuse("a return to a level below the R level");
+        return PostCode::Family.err("a return to a level below the R level");
     }
     let z = XYZ[2];
     Ok(Values {
@@ -151,13 +151,13 @@ fn definition(
 ) -> Result<Vec<String>> {
     let number = code.value() as u16;
     let Some((_, name)) = CYCLES.iter().find(|(known, _)| *known == number) else {
-        return refuse(format!("CYCL DEF {number} is not known here"));
+        return PostCode::Family.err(format!("CYCL DEF {number} is not known here"));
     };
     if cycle.kind.pecks() != matches!(number, 203 | 205) {
-        return refuse(format!("CYCL DEF {number} for {:?}", cycle.kind));
+        return PostCode::Family.err(format!("CYCL DEF {number} for {:?}", cycle.kind));
     }
     if (cycle.kind == CycleKind::Tap) != matches!(number, 206 | 207) {
-        return refuse(format!("CYCL DEF {number} for {:?}", cycle.kind));
+        return PostCode::Family.err(format!("CYCL DEF {number} for {:?}", cycle.kind));
     }
     let at = values(control, cycle, hole)?;
     let mut lines = vec![format!("CYCL DEF {number} {name}")];
@@ -166,7 +166,8 @@ fn definition(
     say(201, &at.depth, "DEPTH");
     if number == 207 {
         if cycle.dwell > 0.0 {
-            return refuse("CYCL DEF 207 does not dwell; 206 does, with a floating tap holder");
+            return PostCode::Family
+                .err("CYCL DEF 207 does not dwell; 206 does, with a floating tap holder");
         }
         let pitch = pitch(control, cycle)?;
         say(239, &pitch, "THREAD PITCH");
@@ -215,7 +216,7 @@ fn definition(
         }
         205 => {
             if cycle.kind == CycleKind::Brkchp {
-                return refuse("CYCL DEF 205 for BRKCHP");
+                return PostCode::Family.err("CYCL DEF 205 for BRKCHP");
             }
             say(212, "+0", "DECREMENT");
             say(205, "+0", "MIN. PLUNGING DEPTH");
@@ -261,12 +262,12 @@ fn peck_text(control: &Control, peck: f64) -> Result<String> {
 /// the spindle is that at its speed: a new speed makes a new definition.
 fn feed(control: &Control, cycle: &Cycle) -> Result<String> {
     let CycleFeed::Feed(feed) = cycle.feed else {
-        return refuse("a lead in place of a feed in a cycle that does not tap");
+        return PostCode::Family.err("a lead in place of a feed in a cycle that does not tap");
     };
     let value = match feed.mode {
         FeedMode::PerMinute => feed.value,
         FeedMode::PerRevolution => motion::a_minute(control, feed.value)?,
-        FeedMode::InverseTime => return refuse("inverse time in a cycle"),
+        FeedMode::InverseTime => return PostCode::Family.err("inverse time in a cycle"),
     };
     line::feed(control, motion::spelled(control, value))
 }
@@ -275,13 +276,15 @@ fn feed(control: &Control, cycle: &Cycle) -> Result<String> {
 /// speed makes a new definition.
 fn tapping_feed(control: &Control, cycle: &Cycle) -> Result<String> {
     if control.klartext.clockwise.is_none() {
-        return refuse("TAP before SPINDL: CYCL DEF 206 taps with the spindle that turns");
+        return PostCode::Family
+            .err("TAP before SPINDL: CYCL DEF 206 taps with the spindle that turns");
     }
     let asked = motion::spelled(control, tap::a_minute(control, cycle)?);
     let text = line::feed(control, asked)?;
     let written: f64 = text.parse().unwrap_or(0.0);
     if (written - asked).abs() > tap::SHARE * asked {
-        return refuse(format!("a feed of {asked} to tap with would be written as {written}"));
+        return PostCode::Family
+            .err(format!("a feed of {asked} to tap with would be written as {written}"));
     }
     Ok(text)
 }
@@ -290,7 +293,8 @@ fn tapping_feed(control: &Control, cycle: &Cycle) -> Result<String> {
 /// spindle that turns counterclockwise cuts.
 fn pitch(control: &Control, cycle: &Cycle) -> Result<String> {
     let Some(clockwise) = control.klartext.clockwise else {
-        return refuse("TAP before SPINDL: the sign of Q239 says which way the thread turns");
+        return PostCode::Family
+            .err("TAP before SPINDL: the sign of Q239 says which way the thread turns");
     };
     let digits = PITCH_DIGITS[usize::from(!control.is_metric())];
     let pitch = tap::text(tap::pitch(control, cycle)?, digits)?;

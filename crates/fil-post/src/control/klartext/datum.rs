@@ -5,7 +5,6 @@ use fil_machine::locations as loc;
 
 use super::line::{self, Line};
 use crate::control::Control;
-use crate::control::family::refuse;
 use crate::control::word_address::fixture;
 use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
@@ -19,7 +18,8 @@ const LAST: i64 = 9999;
 /// No number; a row that the table can't have; cutter compensation.
 pub fn write(control: &mut Control, number: Option<i64>) -> Result<()> {
     let Some(number) = number else {
-        return refuse("SET/OFSETL without a number: cycle 247 takes a row of the presets");
+        return PostCode::Family
+            .err("SET/OFSETL without a number: cycle 247 takes a row of the presets");
     };
     let row = number + i64::from(control.commons.int_opt(loc::FIXTURE_BASE).unwrap_or(0));
     if !(0..=LAST).contains(&row) {

@@ -6,7 +6,8 @@ use fil_diag::Result;
 use fil_machine::letters::IJK;
 
 use crate::control::Control;
-use crate::control::word_address::arc::{self as words, PlaneArc};
+use crate::control::word_address::arc as words;
+use crate::operation::motion::PlaneArc;
 
 /// Decimals of a polar angle, degrees.
 const ANGLE: f64 = 1e4;

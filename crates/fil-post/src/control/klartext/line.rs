@@ -5,7 +5,6 @@ use fil_machine::locations as loc;
 
 use crate::cause::Cause;
 use crate::control::Control;
-use crate::control::family::refuse;
 pub use crate::control::line::{Line, feed, length, scaled_text};
 use crate::errors::PostCode;
 use crate::noted::TEXT;
@@ -47,12 +46,14 @@ pub fn seconds(control: &mut Control, asked: f64) -> Result<String> {
         control.warnings.add(PostCode::Clamped, format!("dwell {asked} became {within}"));
     }
     if within > LONGEST_DWELL {
-        return refuse(format!("a dwell of {within} s; a TNC waits {LONGEST_DWELL} s at most"));
+        return PostCode::Family
+            .err(format!("a dwell of {within} s; a TNC waits {LONGEST_DWELL} s at most"));
     }
     let text = format!("{within:.SECONDS$}");
     let written: f64 = text.parse().unwrap_or(0.0);
     if (written - within).abs() > 0.01 * within {
-        return refuse(format!("a dwell of {within} s would be written as {written}"));
+        return PostCode::Family
+            .err(format!("a dwell of {within} s would be written as {written}"));
     }
     Ok(text.trim_end_matches('0').trim_end_matches('.').to_string())
 }

@@ -3,7 +3,7 @@
 //!
 //! Modes that words of a word-address control switch are said in each line or not at
 //! all, so there is no plane, no G90, no G80: the tool axis is Z, coordinates are
-//! absolute. What Klartext can't say is refused by [`refuse`].
+//! absolute. What Klartext can't say is refused by `PostCode::Family`.
 
 pub mod cycle;
 mod datum;
@@ -28,7 +28,6 @@ use fil_machine::{FunctionCode, Letter};
 
 use super::word_address::dwell::seconds_of_turns;
 use super::{Control, Function, own_offsets, word_address};
-use crate::control::family::refuse;
 use crate::control_state::{Compensation, modal};
 use crate::errors::PostCode;
 use crate::operation::{CutterCompensation, Dwell, Operation};
@@ -104,7 +103,8 @@ fn write_dwell(control: &mut Control, dwell: Dwell) -> Result<()> {
 /// RL, RR or R0, with the next motion of X or Y; R0 with any motion.
 fn compensate(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
     if wanted.plane.is_some_and(|(plane, _)| plane != Plane::Xy) {
-        return refuse("CUTCOM in another plane than XY: the tool axis of TOOL CALL is Z");
+        return PostCode::Family
+            .err("CUTCOM in another plane than XY: the tool axis of TOOL CALL is Z");
     }
     if let Some((offset, _)) = wanted.offset {
         let of_tool = control.state.get(modal::TOOL).is_some_and(|tool| tool as f64 == offset);
@@ -131,7 +131,8 @@ fn compensate(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
 fn function(control: &mut Control, letter: Letter, code: FunctionCode) -> Result<()> {
     control.begin()?;
     if letter != M {
-        return refuse(format!("{letter}{}: Klartext has no such functions", code.value()));
+        return PostCode::Family
+            .err(format!("{letter}{}: Klartext has no such functions", code.value()));
     }
     refuse_auxiliary(code)?;
     let before = control.before_others()?;
@@ -144,7 +145,8 @@ fn function(control: &mut Control, letter: Letter, code: FunctionCode) -> Result
 fn refuse_auxiliary(code: FunctionCode) -> Result<()> {
     match reader::meaning(code.value()) {
         reader::Auxiliary::Harmless => Ok(()),
-        _ => refuse(format!("AUXFUN: M{} changes what motions or cycles do", code.value())),
+        _ => PostCode::Family
+            .err(format!("AUXFUN: M{} changes what motions or cycles do", code.value())),
     }
 }
 

@@ -11,17 +11,17 @@ use super::helix::{self, Helix};
 use super::line::{self, Line};
 use super::phrase::Head;
 use super::repeat;
-use crate::control::family::refuse;
 use crate::control::needs::{self, Act};
-use crate::control::word_address::arc::{self, PlaneArc};
+use crate::control::word_address::arc;
 use crate::control::word_address::dwell::known_speed;
-use crate::control::word_address::motion::{self as words, Motion};
+use crate::control::word_address::motion as words;
 use crate::control::word_address::repeat as words_of_repeat;
 use crate::control::{Control, Function};
 use crate::control_state::{Compensation, Source, modal};
 use crate::errors::PostCode;
 use crate::noted::TEXT;
 use crate::operation::Feed;
+use crate::operation::motion::{Motion, PlaneArc};
 
 /// In a program in inches F counts tenths of an inch a minute.
 const TENTHS: f64 = 10.0;
@@ -41,7 +41,8 @@ const IN_MACHINE: FunctionCode = FunctionCode::whole(91);
 /// A value that does not fit, a position outside the travel.
 pub fn rapid(control: &mut Control, motion: &Motion) -> Result<()> {
     if control.commons.read(loc::RAPID_ADDRESS).is_some() {
-        return refuse("a word of its own for rapid motions (rapid.address): FMAX has none");
+        return PostCode::Family
+            .err("a word of its own for rapid motions (rapid.address): FMAX has none");
     }
     ready(control)?;
     if words::axis_words(control, motion)? {
@@ -112,7 +113,7 @@ pub fn arc(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result
         let stands = control.klartext.start(arc.start);
         return match helix::of(control, arc, stands)? {
             Some(helix) => turn(control, arc, helix, feed),
-            None => refuse("a helix that no angle with its digits turns to its end"),
+            None => PostCode::Family.err("a helix that no angle with its digits turns to its end"),
         };
     }
     let pole = pole(control, arc, arc.center)?;
@@ -193,7 +194,7 @@ fn feed_word(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
         FeedMode::PerMinute => spelled(control, feed.value),
         FeedMode::PerRevolution if control.is_metric() => feed.value,
         FeedMode::PerRevolution => spelled(control, a_minute(control, feed.value)?),
-        FeedMode::InverseTime => return refuse("inverse time: F is a feed here"),
+        FeedMode::InverseTime => return PostCode::Family.err("inverse time: F is a feed here"),
     };
     let is_metric = control.is_metric();
     say_mode(control, if is_metric { feed.mode } else { FeedMode::PerMinute });
@@ -208,7 +209,7 @@ fn feed_word(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
 pub(super) fn a_minute(control: &Control, feed: f64) -> Result<f64> {
     match known_speed(control) {
         Some(speed) => Ok(feed * speed * control.upm_factor()),
-        None => refuse("a feed a turn of the spindle while its speed is not known"),
+        None => PostCode::Family.err("a feed a turn of the spindle while its speed is not known"),
     }
 }
 
@@ -282,7 +283,7 @@ pub(super) fn write(control: &mut Control, turning: AxisSet) -> Result<()> {
 /// One waits.
 pub fn refuse_unbegun(control: &Control) -> Result<()> {
     if control.waiting.has(Function::Compensation) {
-        return refuse(
+        return PostCode::Family.err(
             "CUTCOM without a motion behind it: R0, RL and RR are said in the line of a motion",
         );
     }

@@ -6,9 +6,9 @@ use fil_machine::letters::{F, IJK};
 use super::line::{self, Line};
 use super::reader;
 use crate::block::Block;
-use crate::control::family::refuse;
 use crate::control::{Control, vectors};
 use crate::control_state::{Compensation, CutterPath, modal};
+use crate::errors::PostCode;
 use crate::noted::TEXT;
 
 /// How a line begins.
@@ -63,7 +63,7 @@ pub fn write(control: &mut Control) -> Result<()> {
     let phrase = std::mem::take(&mut control.klartext.phrase);
     let block = control.block.take();
     if let Some((code, _)) = block.g_codes().first() {
-        return refuse(format!("G{}: Klartext has no G functions", code.value()));
+        return PostCode::Family.err(format!("G{}: Klartext has no G functions", code.value()));
     }
     block.check_functions(&control.tables.addresses)?;
     let cause = block.cause;
@@ -90,7 +90,7 @@ pub fn write(control: &mut Control) -> Result<()> {
         let vector =
             IJK.contains(&letter) && phrase.head == Head::Line && vectors::are_in_force(control);
         if !(vector || WORDS.contains(&letter.byte())) {
-            return refuse(format!("{letter}: a line of Klartext has no such word"));
+            return PostCode::Family.err(format!("{letter}: a line of Klartext has no such word"));
         }
         let value = line::scaled_text(control, letter, scaled).unwrap_or_default();
         let word = match IJK.iter().position(|own| vector && *own == letter) {

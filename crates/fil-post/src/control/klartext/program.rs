@@ -7,8 +7,8 @@ use fil_machine::modes::{Plane, Unit};
 use super::line::{self, Line};
 use crate::cause::Cause;
 use crate::control::Control;
-use crate::control::family::refuse;
 use crate::control_state::{Source, modal};
+use crate::errors::PostCode;
 
 /// Longest name of a program.
 const NAME: usize = 32;
@@ -20,7 +20,7 @@ const NAME: usize = 32;
 pub fn start(control: &mut Control, blocks: &[String]) -> Result<()> {
     let style = &control.tables.style;
     if style.edits_words || style.edits_lines {
-        return refuse("_OUTPTP and _MCDWT: lines of Klartext are not edited");
+        return PostCode::Family.err("_OUTPTP and _MCDWT: lines of Klartext are not edited");
     }
     let unit = control.require_unit()?;
     control.state.set(modal::UNITS, unit);

@@ -8,7 +8,6 @@ use fil_machine::{FunctionCode, Letter};
 use super::phrase::Head;
 use super::refuse_auxiliary;
 use crate::cause::Cause;
-use crate::control::family::refuse;
 use crate::control::{Control, word_address};
 use crate::errors::PostCode;
 use crate::operation::Operation;
@@ -25,12 +24,12 @@ pub fn set(control: &mut Control, words: Vec<(Letter, f64, Cause)>) -> Result<()
         match *letter {
             M => match FunctionCode::of_value(*value) {
                 Some(code) => refuse_auxiliary(code)?,
-                None => return refuse(format!("REPEAT: M{value} is no function")),
+                None => return PostCode::Family.err(format!("REPEAT: M{value} is no function")),
             },
             F => {}
             letter if AXES.contains(&letter.byte()) => {}
             letter => {
-                return refuse(format!(
+                return PostCode::Family.err(format!(
                     "REPEAT: {letter} in each line; a line of Klartext takes axes, F and M of others"
                 ));
             }

@@ -3,8 +3,8 @@
 use fil_diag::Result;
 
 use crate::control::Control;
-use crate::control::family::refuse;
 use crate::control_state::{Source, modal};
+use crate::errors::PostCode;
 
 /// The one mark that the control reads.
 const MARK: char = '/';
@@ -15,7 +15,8 @@ const MARK: char = '/';
 /// A machine with another mark.
 pub fn change(control: &mut Control, on: bool) -> Result<()> {
     if on && control.tables.style.skip.is_some_and(|mark| mark != MARK) {
-        return refuse("OPSKIP by another mark than /: a TNC reads no other (tape.opskip_char)");
+        return PostCode::Family
+            .err("OPSKIP by another mark than /: a TNC reads no other (tape.opskip_char)");
     }
     // A cycle that is defined on one side of the mark would be called on the other.
     control.state.forget(modal::CYCLE_CODE, Source::Post);

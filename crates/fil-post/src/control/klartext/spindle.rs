@@ -5,8 +5,8 @@ use fil_machine::locations as loc;
 
 use super::tool;
 use crate::control::Control;
-use crate::control::family::refuse;
 use crate::control::word_address::spindle as words;
+use crate::errors::PostCode;
 use crate::operation::{Spindle, SpindleSpeed, SpindleTurn};
 
 /// Writes the spindle's words.
@@ -16,8 +16,8 @@ use crate::operation::{Spindle, SpindleSpeed, SpindleTurn};
 pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
     match spindle {
         Spindle::Turn(turn) => start(control, turn),
-        Spindle::Limit(_) => refuse("SPINDL/MAXRPM on a mill"),
-        Spindle::Side(_) | Spindle::Counted(_) => refuse("SPINDL/SIDE on a mill"),
+        Spindle::Limit(_) => PostCode::Family.err("SPINDL/MAXRPM on a mill"),
+        Spindle::Side(_) | Spindle::Counted(_) => PostCode::Family.err("SPINDL/SIDE on a mill"),
         other => words::write(control, other),
     }
 }
@@ -28,10 +28,11 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
     control.block.cause.word = speed_word;
     if let Some(speed) = turn.speed {
         if !control.commons.read(loc::SPINDLE_DIRECT_RPM) {
-            return refuse("S as a code (spindle.direct_rpm): TOOL CALL takes turns a minute");
+            return PostCode::Family
+                .err("S as a code (spindle.direct_rpm): TOOL CALL takes turns a minute");
         }
         if !matches!(speed, SpindleSpeed::Revolutions(_)) {
-            return refuse("SPINDL with a surface speed on a mill");
+            return PostCode::Family.err("SPINDL with a surface speed on a mill");
         }
         let by_speed = !turn.in_named_range && control.commons.read(loc::SPINDLE_AUTO_RANGE);
         if let (SpindleSpeed::Revolutions(speed), true) = (speed, by_speed) {

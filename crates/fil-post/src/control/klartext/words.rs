@@ -12,8 +12,8 @@ use super::phrase::Head;
 use super::{function, refuse_auxiliary};
 use crate::cause::Cause;
 use crate::control::Control;
-use crate::control::family::refuse;
 use crate::control::needs::Act;
+use crate::errors::PostCode;
 
 /// Letters of axes.
 const AXES: &[u8] = b"ABCUVWXYZ";
@@ -57,7 +57,7 @@ pub fn write(control: &mut Control, words: &[(Letter, f64, Cause)]) -> Result<()
 
 fn auxiliary(value: f64) -> Result<FunctionCode> {
     let Some(code) = FunctionCode::of_value(value) else {
-        return refuse(format!("POSTN: M{value} is no function"));
+        return PostCode::Family.err(format!("POSTN: M{value} is no function"));
     };
     refuse_auxiliary(code)?;
     Ok(code)
@@ -70,13 +70,13 @@ fn moves_in_rapid(words: &[(Letter, f64, Cause)]) -> Result<bool> {
         .iter()
         .find(|(letter, ..)| !matches!(*letter, F | G | M) && !AXES.contains(&letter.byte()));
     if let Some((letter, value, _)) = strange {
-        return refuse(format!(
+        return PostCode::Family.err(format!(
             "POSTN: a line of Klartext has axes, F and M, and {letter}{value} has no meaning there"
         ));
     }
     let moves = words.iter().any(|(letter, ..)| AXES.contains(&letter.byte()));
     if !moves && words.iter().any(|(letter, ..)| *letter == G) {
-        return refuse(
+        return PostCode::Family.err(
             "POSTN: a line of Klartext keeps no motion function, so G without an axis says nothing",
         );
     }
@@ -86,12 +86,12 @@ fn moves_in_rapid(words: &[(Letter, f64, Cause)]) -> Result<bool> {
         ([0.0], false) => Ok(true),
         ([1.0], _) | ([], true) => Ok(false),
         ([0.0], true) => {
-            refuse("POSTN: FMAX stands in the place of F, so G0 and F do not go together")
+            PostCode::Family.err("POSTN: FMAX stands in the place of F, so G0 and F do not go together")
         }
-        ([], false) => refuse(
+        ([], false) => PostCode::Family.err(
             "POSTN: a line of Klartext keeps no motion function; say G,0 for FMAX, or G,1 or F for a feed",
         ),
-        _ => refuse(
+        _ => PostCode::Family.err(
             "POSTN: of the G functions only 0 (FMAX) and 1 (a feed) have a meaning in Klartext",
         ),
     }

@@ -13,13 +13,12 @@ use fil_machine::modes::{FeedMode, INCH, Plane};
 use fil_machine::rounding::Rounding;
 
 use crate::block::named;
-use crate::control::family::refuse;
-use crate::control::word_address::motion::Motion;
 use crate::control::word_address::{modes, motion, spindle};
 use crate::control::{Control, length_plane, line, tap};
 use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
+use crate::operation::motion::Motion;
 use crate::operation::{Feed, SpindleSpeed};
 
 /// Drilling, and drilling with a dwell.
@@ -154,7 +153,7 @@ struct Levels {
 
 fn levels(control: &Control, cycle: &Cycle, hole: &Hole) -> Result<Levels> {
     if hole.clear < hole.bottom {
-        return refuse("a hole that goes up: DP must lie below RFP");
+        return PostCode::Family.err("a hole that goes up: DP must lie below RFP");
     }
     let axis = control.tables.axis(hole.along);
     let share = cycle.depth / (cycle.depth + cycle.clear);
@@ -166,15 +165,14 @@ fn levels(control: &Control, cycle: &Cycle, hole: &Hole) -> Result<Levels> {
         (axis.value(hole.bottom)?, axis.value(hole.clear)?, axis.value(hole.rest())?);
     let digit = axis.length(axis.resolution()).abs() / 2.0;
     if surface < bottom {
-        return refuse(
-            "a hole that goes up on the tape (scale.z below zero): DP must lie below RFP",
-        );
+        return PostCode::Family
+            .err("a hole that goes up on the tape (scale.z below zero): DP must lie below RFP");
     }
     if clear < surface - digit {
-        return refuse("an R level below the surface of the hole (CLEAR below zero)");
+        return PostCode::Family.err("an R level below the surface of the hole (CLEAR below zero)");
     }
     if rest < clear - digit {
-        return refuse("a return to a level below the R level");
+        return PostCode::Family.err("a return to a level below the R level");
     }
     let text = |value: f64| line::length(control, axis.letter, value).map(|(text, _)| text);
     Ok(Levels {
@@ -196,7 +194,7 @@ fn call(control: &mut Control, cycle: &Cycle, code: FunctionCode, hole: &Hole) -
         _ => matches!(number, DRILL | WITH_DWELL | REAM | BORE | BORE_AT_FEED),
     };
     if !right {
-        return refuse(format!("CYCLE{number} for {:?}", cycle.kind));
+        return PostCode::Family.err(format!("CYCLE{number} for {:?}", cycle.kind));
     }
     let at = levels(control, cycle, hole)?;
     let Levels { rtp, rfp, sdis, dp, .. } = &at;
@@ -266,7 +264,7 @@ fn peck_words(
 /// that parameter refuses.
 fn tap_words(control: &mut Control, cycle: &Cycle, dwell: &str) -> Result<String> {
     let Some(asked @ SpindleSpeed::Revolutions(_)) = control.spindle.speed else {
-        return refuse("TAP before SPINDL: CYCLE84 needs the turns of the spindle");
+        return PostCode::Family.err("TAP before SPINDL: CYCLE84 needs the turns of the spindle");
     };
     let speed = spindle::value_of(control, asked);
     let sense = sense(control)?;
@@ -284,7 +282,8 @@ fn sense(control: &Control) -> Result<u8> {
     match control.sinumerik.clockwise {
         Some(true) => Ok(3),
         Some(false) => Ok(4),
-        None => refuse("a cycle that stops the spindle before SPINDL: which way it turns again"),
+        None => PostCode::Family
+            .err("a cycle that stops the spindle before SPINDL: which way it turns again"),
     }
 }
 
@@ -307,8 +306,10 @@ fn reaming_feed(control: &mut Control, cycle: &Cycle) -> Result<String> {
 fn own_feed(cycle: &Cycle) -> Result<Feed> {
     match cycle.feed {
         CycleFeed::Feed(feed) if feed.mode != FeedMode::InverseTime => Ok(feed),
-        CycleFeed::Feed(_) => refuse("a feed in inverse time in a cycle"),
-        CycleFeed::Lead(_) => refuse("a lead in place of a feed in a cycle that does not tap"),
+        CycleFeed::Feed(_) => PostCode::Family.err("a feed in inverse time in a cycle"),
+        CycleFeed::Lead(_) => {
+            PostCode::Family.err("a lead in place of a feed in a cycle that does not tap")
+        }
     }
 }
 
@@ -326,7 +327,8 @@ fn seconds(control: &mut Control, asked: f64) -> Result<String> {
     let text = format!("{within:.SECONDS$}");
     let written: f64 = text.parse().unwrap_or(0.0);
     if (written - within).abs() > 0.01 * within {
-        return refuse(format!("a dwell of {within} s would be written as {written}"));
+        return PostCode::Family
+            .err(format!("a dwell of {within} s would be written as {written}"));
     }
     Ok(text.trim_end_matches('0').trim_end_matches('.').to_string())
 }

@@ -5,7 +5,6 @@ use fil_machine::locations::{self as loc, FixtureForm};
 use fil_machine::{Commons, FunctionCode};
 
 use crate::control::Control;
-use crate::control::family::refuse;
 use crate::control::word_address::fixture;
 use crate::errors::PostCode;
 
@@ -22,7 +21,7 @@ const FURTHER: std::ops::RangeInclusive<i64> = 505..=599;
 pub fn write(control: &mut Control, number: Option<i64>) -> Result<()> {
     let Some(number) = number else { return fixture::write(control, None) };
     if control.commons.read(loc::FIXTURE_FORM) == FixtureForm::Word {
-        return refuse("fixture.form: a G function chooses the work offset");
+        return PostCode::Family.err("fixture.form: a G function chooses the work offset");
     }
     let code = code(&control.commons, number).ok_or_else(|| {
         PostCode::WordForm.diag(format!("SET: the control has no work offset {number}"))

@@ -3,7 +3,7 @@
 //! messages of their own.
 //!
 //! Modes, modality and positions are those of [`word_address`]; here is only what the
-//! language says otherwise. What it can't say is refused by [`refuse`].
+//! language says otherwise. What it can't say is refused by `PostCode::Family`.
 
 pub mod block;
 pub mod cycle;
@@ -28,7 +28,6 @@ use fil_machine::rounding::Rounding;
 use super::line::Line;
 use super::word_address::dwell;
 use super::{Control, own_offsets, word_address};
-use crate::control::family::refuse;
 use crate::control::needs::Act;
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
@@ -121,12 +120,11 @@ pub fn check_arc(control: &Control) -> Result<()> {
         CircleCenter::StartToCenterSigned | CircleCenter::AbsoluteCenter | CircleCenter::Radius
     );
     if center {
-        return refuse(
-            "circle.center: a center counts from the start with its sign, or is absolute",
-        );
+        return PostCode::Family
+            .err("circle.center: a center counts from the start with its sign, or is absolute");
     }
     if control.helix_words {
-        return refuse("ARCSLP: a helix says no rise of a radian here");
+        return PostCode::Family.err("ARCSLP: a helix says no rise of a radian here");
     }
     Ok(())
 }
@@ -139,7 +137,7 @@ pub fn check_unit(control: &Control) -> Result<()> {
     let inches = control.unit == Some(Unit::Inch) && Unit::of_machine(&control.commons).is_none();
     let lengths = control.commons.read(loc::UNITS_INCH_CODE) == Some(INCHES_OF_LENGTHS.into());
     if inches && lengths {
-        return refuse(
+        return PostCode::Family.err(
             "feeds in inches with G70, which switches lengths alone: take G700 \
              (units.inch_code), or units.mode of a machine that counts in inches",
         );

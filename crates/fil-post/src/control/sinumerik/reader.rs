@@ -5,8 +5,8 @@ use fil_diag::Result;
 use fil_machine::{Commons, Letter, letters, locations as loc};
 
 use crate::control::Control;
-use crate::control::family::refuse;
 use crate::control_state::{Effect, ForeignBlock, Rotation, Source, TextFrame, modal};
+use crate::errors::PostCode;
 
 /// Statements that change nothing the post counts on: how the path is smoothed and
 /// driven, what stands beside the motions.
@@ -66,7 +66,7 @@ const FRAMES: &[&str] =
 pub fn refuse_other_diameters(control: &Control, block: &ForeignBlock) -> Result<()> {
     let is_lathe = control.commons.read(loc::LATHE_DIAMETER);
     match block.named(&["DIAMOF", "DIAM90", "DIAMCHAN"]).filter(|_| is_lathe) {
-        Some(item) => refuse(format!("{item}: the post writes X as a diameter")),
+        Some(item) => PostCode::Family.err(format!("{item}: the post writes X as a diameter")),
         None => Ok(()),
     }
 }

@@ -7,7 +7,6 @@ use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::FeedMode;
 
 use crate::control::Control;
-use crate::control::family::refuse;
 use crate::control::word_address::spindle as words;
 use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
@@ -113,7 +112,7 @@ pub fn says_feed_mode(control: &mut Control, feed: &Feed) -> Result<bool> {
     let (Some(speed), Some(_), Some(code)) =
         (control.spindle.speed.filter(of_surface), usual, code)
     else {
-        return refuse(
+        return PostCode::Family.err(
             "G94 or G95 under a surface speed: they stand in one group with G96 and would end it; \
              give the feed a turn, or SPINDL / RPM",
         );

@@ -4,10 +4,11 @@ use fil_diag::Result;
 use fil_machine::letters::{F, IJK};
 use fil_machine::locations as loc;
 
-use crate::control::family::refuse;
-use crate::control::word_address::motion::{self as words, Motion};
+use crate::control::word_address::motion as words;
 use crate::control::{Control, line, tap};
 use crate::control_state::{Source, VARYING_LEADS_OF_SINUMERIK, modal};
+use crate::errors::PostCode;
+use crate::operation::motion::Motion;
 use crate::operation::thread_shape::{Ends, Shape};
 use crate::operation::{Lead, Thread, ThreadSide};
 
@@ -33,7 +34,7 @@ pub fn pass(control: &mut Control, motion: &Motion, lead: &Lead, change: f64) ->
         Some(to.map(|to| (to - from).abs()))
     };
     let (Some(x), Some(z)) = (way(0).transpose()?, way(2).transpose()?) else {
-        return refuse("a pass of a thread, and where it begins is not known");
+        return PostCode::Family.err("a pass of a thread, and where it begins is not known");
     };
     let letter = if x > z + EQUAL { IJK[0] } else { IJK[2] };
     if change == 0.0 {

@@ -4,10 +4,10 @@ use fil_diag::Result;
 use fil_machine::letters::D;
 use fil_machine::locations as loc;
 
-use crate::control::family::refuse;
 use crate::control::word_address::tool as words;
 use crate::control::{Control, own_offsets};
 use crate::control_state::modal;
+use crate::errors::PostCode;
 use crate::operation::ToolChange;
 
 /// The highest number of a cutting edge.
@@ -54,7 +54,8 @@ pub fn edge_of(wanted: &ToolChange) -> i64 {
 pub fn select(control: &mut Control, tool: i64) -> Result<()> {
     let prepares = control.commons.read(loc::TOOL_PRESELECT);
     if prepares && control.code_if_any(loc::TOOL_CHANGE_CODE).is_none() {
-        return refuse("the next tool by T, which changes the tool at once (tool.change_code)");
+        return PostCode::Family
+            .err("the next tool by T, which changes the tool at once (tool.change_code)");
     }
     words::select(control, tool)
 }

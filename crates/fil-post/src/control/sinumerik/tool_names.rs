@@ -8,7 +8,7 @@ use fil_diag::Result;
 use fil_machine::locations::{self as loc, ControlFamily, ControlToolCall};
 
 use crate::control::Control;
-use crate::control::family::refuse;
+use crate::errors::PostCode;
 
 /// Longest name of a tool, characters.
 const LONGEST: usize = 32;
@@ -29,7 +29,7 @@ impl ToolNames {
     pub fn of(&self, tool: i64) -> Result<&str> {
         match self.by_number.get(&tool) {
             Some(name) => Ok(name),
-            None => refuse(format!(
+            None => PostCode::Family.err(format!(
                 "tool {tool} by its name (control.tool_call): neither TPRINT nor TOOL PATH said one \
                  before its LOADTL"
             )),
@@ -44,18 +44,19 @@ impl ToolNames {
         let Some(name) = self.said.take() else { return Ok(()) };
         let reads = |c: char| c.is_ascii_graphic() && c != '"' || c == ' ';
         if name.is_empty() || name.len() > LONGEST || !name.chars().all(reads) {
-            return refuse(format!(
+            return PostCode::Family.err(format!(
                 "`{name}` as the name of tool {tool}: 1 to {LONGEST} letters of ASCII without quotes \
                  are needed"
             ));
         }
         if let Some(before) = self.by_number.get(&tool).filter(|before| **before != name) {
-            return refuse(format!("tool {tool} was `{before}` and is now `{name}`"));
+            return PostCode::Family.err(format!("tool {tool} was `{before}` and is now `{name}`"));
         }
         let same =
             |(other, known): &(&i64, &String)| **other != tool && known.eq_ignore_ascii_case(&name);
         if let Some((other, _)) = self.by_number.iter().find(same) {
-            return refuse(format!("`{name}` is the name of tool {other} and of tool {tool}"));
+            return PostCode::Family
+                .err(format!("`{name}` is the name of tool {other} and of tool {tool}"));
         }
         self.by_number.insert(tool, name);
         Ok(())

@@ -11,35 +11,10 @@ use fil_machine::modes::Plane;
 use fil_machine::rounding::Rounding;
 
 use super::modes;
-use super::motion::{self, Motion};
-use crate::cause::Cause;
+use super::motion;
 use crate::control::Control;
 use crate::operation::Feed;
-
-/// An arc, or a part of one, in a plane of the machine; lengths in mm or inch.
-#[derive(Clone, Copy, Debug)]
-pub struct PlaneArc {
-    /// The plane.
-    pub plane: Plane,
-    /// Counterclockwise, seen against the plane's normal.
-    pub counterclockwise: bool,
-    /// The center, in the two axes of the plane.
-    pub center: [f64; 2],
-    /// The radius.
-    pub radius: f64,
-    /// Where it begins.
-    pub from: Position,
-    /// The same in the two axes of the plane, as the tape says it.
-    pub start: [f64; 2],
-    /// Where it ends.
-    pub to: Position,
-    /// Degrees, above 0 and at most 360.
-    pub sweep: f64,
-    /// Word of the record that the end repeats; 0 for none.
-    pub word: u16,
-    /// The CIRCLE record.
-    pub cause: Cause,
-}
+use crate::operation::motion::{Motion, PlaneArc};
 
 /// How many last digits the path may be off where the control reads an arc from
 /// the rounded words, and half of it what start and end may differ in radius.
@@ -56,22 +31,6 @@ const LEAST_CHORD: f64 = 2.5;
 /// A sweep below this, in degrees, is none to some controls; as a line it is off by
 /// 0.2 micrometres at a radius of 10 m.
 const LEAST_SWEEP: f64 = 0.02;
-
-impl PlaneArc {
-    /// A point in the two axes of the plane.
-    fn flat(&self, position: &Position) -> [f64; 2] {
-        self.plane.axes().map(|number| position[number])
-    }
-
-    /// The point at a share of the way from start to end, in the axes of the plane.
-    fn point_at(&self, share: f64) -> [f64; 2] {
-        let [x, y] = self.flat(&self.from);
-        let [x, y] = [x - self.center[0], y - self.center[1]];
-        let turned = if self.counterclockwise { self.sweep } else { -self.sweep } * share;
-        let (sine, cosine) = libm::sincos(turned.to_radians());
-        [self.center[0] + x * cosine - y * sine, self.center[1] + x * sine + y * cosine]
-    }
-}
 
 /// True when the control reads the arc from its rounded words as it is meant: as long,
 /// through the same points, and at one radius from start to end, within a few last

@@ -7,7 +7,7 @@ use fil_machine::locations::{self as loc, ControlFamily, Placement, ToolFormat};
 use fil_machine::modes::Plane;
 
 use super::modes;
-use super::tool::OFFSETS;
+use crate::control::length_plane::usual_plane;
 use crate::control::{Control, Function, length_plane};
 use crate::control_state::{Compensation, modal};
 use crate::errors::PostCode;
@@ -102,15 +102,6 @@ fn plane_of_live_tool(control: &mut Control, wanted: CutterCompensation) -> Resu
     }
 }
 
-/// The plane a machine works in: ZX on a lathe, else the one its program starts in, else XY.
-pub fn usual_plane(control: &Control) -> Plane {
-    if control.commons.read(loc::LATHE_DIAMETER) {
-        return Plane::Zx;
-    }
-    let start = crate::control::program::state_at_start(&control.commons, None);
-    start.get(modal::PLANE).unwrap_or(Plane::Xy)
-}
-
 /// The nose of a turning tool is in the offset that its T word has called: a number in
 /// the record must be the same, and no word is written.
 ///
@@ -163,3 +154,6 @@ fn offset_word(control: &mut Control, given: Option<(f64, u16)>) -> Result<()> {
     control.block.cause.word = word;
     control.word(letter, offset)
 }
+
+/// How many offsets the second half of T0303 can name.
+pub(super) const OFFSETS: i64 = 100;

@@ -11,12 +11,13 @@ use fil_machine::locations::{
 use fil_machine::modes::{FeedMode, Plane};
 use fil_machine::rounding::Rounding;
 
-use super::motion::{self, Motion};
+use super::motion;
 use super::{dwell, modes, spindle};
 use crate::control::{Control, length_plane, sinumerik, tap};
 use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
 use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
+use crate::operation::motion::Motion;
 use crate::operation::{Feed, SpindleSpeed};
 
 /// The code of a cycle; `None` where the machine has none that does all of it, so that

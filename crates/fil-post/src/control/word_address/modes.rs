@@ -2,15 +2,14 @@
 //! to be in them.
 
 use fil_diag::Result;
-use fil_machine::FunctionCode;
 use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::{Plane, Unit};
+use fil_machine::{FunctionCode, Letter};
 
-use super::compensation;
 use crate::control::needs::Act;
 use crate::control::program::{plane_code, unit_code};
 use crate::control::{Control, Function, length_plane, sinumerik};
-use crate::control_state::{Compensation, Distance, Source, modal};
+use crate::control_state::{Compensation, Distance, Meaning, Source, functions, modal};
 use crate::errors::PostCode;
 
 /// The modes that an operation brings itself, or goes on in.
@@ -102,7 +101,7 @@ fn say_again(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
     if !own.has_plane() {
         leave_plane_of_its_own(control)?;
     }
-    length_plane::take_back(control)?;
+    take_back(control)?;
     control.block = waiting;
     Ok(())
 }
@@ -128,7 +127,7 @@ pub fn leave_plane_of_its_own(control: &mut Control) -> Result<()> {
 /// # Errors
 /// As [`plane_of_its_own`].
 pub fn plane_of_turning(control: &mut Control) -> Result<()> {
-    plane_of_its_own(control, compensation::usual_plane(control))
+    plane_of_its_own(control, length_plane::usual_plane(control))
 }
 
 /// Says again that X is a diameter, on a control that counts radii too, and on a SINUMERIK the
@@ -139,7 +138,7 @@ fn say_what_x_is(control: &mut Control, sinumerik: bool) -> Result<()> {
         sinumerik::transformation::say_what_x_is(control)?;
         if control.commons.read(loc::LATHE_DIAMETER) {
             // The lengths of a tool count along the axes of its plane.
-            let usual = compensation::usual_plane(control);
+            let usual = length_plane::usual_plane(control);
             let plane = if control.tables.is_polar() { Plane::Xy } else { usual };
             say(control, control.code_if_any(plane_code(plane)));
         }
@@ -211,5 +210,50 @@ pub fn plane_of_its_own(control: &mut Control, wanted: Plane) -> Result<()> {
     plane(control, wanted)?;
     control.write_block()?;
     control.block = waiting;
+    Ok(())
+}
+
+/// Says the plane that motions need, where another one may be in force.
+///
+/// # Errors
+/// As [`plane_of_its_own`].
+pub fn take_back(control: &mut Control) -> Result<()> {
+    take(control, length_plane::of_motions(control))
+}
+
+fn take(control: &mut Control, plane: Option<Plane>) -> Result<()> {
+    match plane {
+        Some(plane) if length_plane::may_be_another(control, plane) => {
+            plane_of_its_own(control, plane)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Says the plane in which a length is taken up along the tool, on a mill that names it by a
+/// function: before the tool is changed, and before that function where another plane has come in
+/// between.
+///
+/// # Errors
+/// As [`plane_of_its_own`].
+pub fn before_length(control: &mut Control) -> Result<()> {
+    take(control, length_plane::of_length(control))
+}
+
+/// The same before the words of others that take up a length and say no plane.
+///
+/// # Errors
+/// As [`plane_of_its_own`].
+pub fn before_others(control: &mut Control, words: &[(Letter, f64)]) -> Result<()> {
+    if !length_plane::of_length(control)
+        .is_some_and(|plane| length_plane::may_be_another(control, plane))
+    {
+        return Ok(());
+    }
+    let codes = || functions(words);
+    let says_plane = codes().any(|code| matches!(control.meaning(code), Meaning::Plane(_)));
+    if !says_plane && codes().any(|code| control.calls_length(code)) {
+        return before_length(control);
+    }
     Ok(())
 }

@@ -4,19 +4,19 @@ mod feed_words;
 mod leads;
 
 use fil_diag::Result;
-use fil_machine::axes::{AXES, AxisSet, Position};
-use fil_machine::letters::F;
+use fil_machine::axes::{AXES, AxisSet};
+use fil_machine::letters::{F, H};
 use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::Plane;
 use fil_machine::rounding::Rounding;
 use fil_machine::{FunctionCode, Letter};
 
 use super::modes::{self, Own};
-use super::tool;
 use crate::cause::Cause;
-use crate::control::{Control, Function, full_turn, length_plane, vectors};
+use crate::control::{Control, Function, full_turn, vectors};
 use crate::control_state::{Compensation, CutterPath, Meaning, modal};
 use crate::errors::PostCode;
+use crate::operation::motion::{Motion, RapidCode};
 use crate::operation::{Feed, Lead};
 pub use feed_words::{feed_mode, feed_words, leave_inverse_time};
 use leads::format_leads;
@@ -25,51 +25,6 @@ pub use leads::{counted_threads, end_lead, lead_mode, lead_word, of_lead};
 /// A smaller motion along an axis whose words are off the tape is none, mm, inch or
 /// degrees.
 const OFF_THE_TAPE: f64 = 1e-3;
-
-/// A motion of the machine's axes.
-#[derive(Clone, Copy, Debug)]
-pub struct Motion {
-    /// Where to: X Y Z in mm or inch, two rotaries in degrees.
-    pub position: Position,
-    /// The axes that may move.
-    pub axes: AxisSet,
-    /// Word of the record that X repeats, Y and Z follow; 0 for none.
-    pub word: u16,
-    /// The scaled integers of the position, where they have been found already.
-    pub scaled: Option<[i64; AXES]>,
-}
-
-impl Motion {
-    /// A motion of some axes to a position; `word` is the one of the record that X repeats, 0 for
-    /// none.
-    #[inline]
-    pub fn new(position: Position, axes: AxisSet, word: u16) -> Motion {
-        Motion { position, axes, word, scaled: None }
-    }
-
-    /// A motion of one axis, to a position in mm, inch or degrees.
-    pub fn along(number: usize, to: f64) -> Motion {
-        let mut position = Position::default();
-        position[number] = to;
-        Motion::new(position, AxisSet::of(number), 0)
-    }
-
-    /// The same for some of its axes.
-    pub fn of(&self, axes: AxisSet) -> Motion {
-        Motion { axes: self.axes.and(axes), ..*self }
-    }
-}
-
-/// Which code a rapid motion takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RapidCode {
-    /// That of X and Y.
-    Across,
-    /// That of Z.
-    Along,
-    /// That of the rotary axes.
-    Turning,
-}
 
 /// Writes a rapid motion in one block.
 ///
@@ -280,7 +235,8 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
     }
     if control.tables.watches_turns {
         if vectors::are_due(control, motion) {
-            vectors::axis_words(control, motion, changed, &scaled)?;
+            let written = vectors::axis_words(control, motion, changed, &scaled)?;
+            note_axis_words(control, written, motion.word);
             return Ok(true);
         }
         if !changed.and(AxisSet::ROTARY).is_empty() {
@@ -299,9 +255,7 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
             control.block.put(position, scaled[number]);
         }
     }
-    if control.block.noting {
-        note_axis_words(control, written, motion.word);
-    }
+    note_axis_words(control, written, motion.word);
     Ok(true)
 }
 
@@ -331,16 +285,15 @@ pub fn axis_word(control: &mut Control, number: usize, motion: &Motion) -> Resul
             scaled = full_turn::word(control, number, motion.position[number], scaled)?;
         }
         control.block.put(position, scaled);
-        if control.block.noting {
-            note_axis_words(control, AxisSet::of(number), motion.word);
-        }
+        note_axis_words(control, AxisSet::of(number), motion.word);
     }
     Ok(())
 }
 
 /// Notes which words of the record the words of axes repeat.
-pub(in crate::control) fn note_axis_words(control: &mut Control, written: AxisSet, first: u16) {
-    if first == 0 {
+#[inline]
+fn note_axis_words(control: &mut Control, written: AxisSet, first: u16) {
+    if !control.block.noting || first == 0 {
         return;
     }
     for number in written.and(AxisSet::LINEAR).numbers() {
@@ -441,13 +394,19 @@ fn length_offset_words(control: &mut Control) -> Result<()> {
         return Ok(());
     }
     if let Some((offset, cause)) = control.waiting.length_offset.take() {
-        length_plane::before_length(control)?;
+        modes::before_length(control)?;
         let code = control.code(loc::TOOL_LENGTH_CODE, "tool length offset")?;
         control.tip.length_is_called = true;
         control.because(cause, |control| {
             control.g_of_record(code);
-            tool::length_number(control, offset)
+            length_number(control, offset)
         })?;
     }
     Ok(())
+}
+
+/// Puts the number of the offset that a length is called with.
+pub(super) fn length_number(control: &mut Control, offset: i64) -> Result<()> {
+    control.state.set(modal::LENGTH_OFFSET, offset);
+    control.word(H, offset as f64)
 }

@@ -10,12 +10,13 @@ use fil_machine::number::NumberFormat;
 use fil_machine::rounding::Rounding;
 use fil_machine::{FunctionCode, Letter, letters};
 
-use super::motion::{self, Motion};
+use super::motion;
 use super::{modes, osp_thread};
 use crate::control::thread_cycle::least_depth;
 use crate::control::{Control, program};
 use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
+use crate::operation::motion::Motion;
 use crate::operation::thread_shape::{Ends, Shape};
 use crate::operation::{Thread, ThreadPasses};
 

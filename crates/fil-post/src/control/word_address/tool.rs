@@ -3,18 +3,18 @@
 use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::axes::{AxisSet, Position};
-use fil_machine::letters::{H, T};
+use fil_machine::letters::T;
 use fil_machine::locations::{self as loc, ControlFamily, ToolFormat};
 
-use super::motion::{self, Motion};
+use super::compensation::OFFSETS;
+use super::motion::length_number;
+use super::{modes, motion};
 use crate::control::needs::Act;
-use crate::control::{Control, length_plane, sinumerik};
+use crate::control::{Control, sinumerik};
 use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
 use crate::operation::ToolChange;
-
-/// How many offsets the second half of T0303 can name.
-pub(super) const OFFSETS: i64 = 100;
+use crate::operation::motion::Motion;
 
 /// Ends what a tool change must not interrupt; says whether the tool is to be
 /// changed at all.
@@ -25,10 +25,10 @@ pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
     check_station(control, wanted.tool)?;
     control.begin()?;
     super::cycle::cancel(control)?;
-    super::modes::leave_plane_of_its_own(control)?;
+    modes::leave_plane_of_its_own(control)?;
     control.flush_waiting()?;
     control.require(Act::ToolChange)?;
-    length_plane::before_length(control)?;
+    modes::before_length(control)?;
     let modal = control.commons.read(loc::TOOL_MODAL);
     let is_edge = control.tables.family == ControlFamily::Sinumerik;
     let offset = if is_edge { sinumerik::tool::edge_of(wanted) } else { wanted.offset };
@@ -202,10 +202,4 @@ fn length_offset(
     control.write_block()?;
     control.state.forget(modal::MOTION, Source::Post);
     Ok(())
-}
-
-/// Puts the number of the offset that a length is called with.
-pub(super) fn length_number(control: &mut Control, offset: i64) -> Result<()> {
-    control.state.set(modal::LENGTH_OFFSET, offset);
-    control.word(H, offset as f64)
 }

@@ -1,5 +1,7 @@
 use proptest::prelude::*;
 
+use nalgebra::Vector3;
+
 use super::*;
 use crate::path::trial::post;
 

@@ -10,8 +10,8 @@ use super::polar;
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
-use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control_state::Place;
+use crate::operation::motion::{Motion, RapidCode};
 
 /// A way that comes nearer to the axis of the spindle by less than this does not pass it, mm or inch.
 const NEARER: f64 = 1e-3;

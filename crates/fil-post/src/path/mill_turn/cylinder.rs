@@ -8,16 +8,18 @@ use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations::{self as loc, MillTurnMode};
 use nalgebra::{Point3, Vector3};
 
+use super::live_tool;
 use super::polar::tenths;
 use crate::control::Control;
 use crate::control::family;
 use crate::control::needs::Act;
 use crate::control::sinumerik::transformation;
-use crate::control::word_address::motion::{self, Motion};
+use crate::control::word_address::motion;
 use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::Target;
-use crate::path::{linearization, rotary};
+use crate::operation::motion::Motion;
+use crate::path::{linearization, position, rotary};
 use crate::post::Post;
 
 /// Largest turn of C in one motion at feed, degrees: more would be the way round that its
@@ -70,7 +72,7 @@ pub(super) fn feed(post: &mut Post, from: Position, to: Position, target: Target
 
 /// Writes a motion to a position of the axes.
 fn go(post: &mut Post, to: Position, target: Target) -> Result<()> {
-    let word = rotary::word_of(post, target);
+    let word = position::word_of(post, target);
     let feed = post.path.feed;
     let control = &mut post.control;
     let unrolled = post.path.cylinder.filter(|_| control.tables.is_unrolled());
@@ -93,20 +95,20 @@ fn go(post: &mut Post, to: Position, target: Target) -> Result<()> {
 /// C stands on the way to a point.
 ///
 /// # Errors
-/// As [`super::position_of`].
+/// As [`live_tool::position_of`].
 pub(super) fn stands(post: &Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<bool> {
-    let (to, _) = super::position_of(post, point, axis)?;
+    let (to, _) = live_tool::position_of(post, point, axis)?;
     Ok(post.path.rotary.is_some_and(|before| before[0] == to[3]))
 }
 
 /// Goes to a target while C stands, and the way around the cylinder stays a length.
 ///
 /// # Errors
-/// As [`super::position_of`]; no feed.
+/// As [`live_tool::position_of`]; no feed.
 pub(super) fn along(post: &mut Post, target: Target) -> Result<()> {
     post.control.require(Act::MillTurnMotion)?;
-    let (point, axis) = rotary::transformed(post, target);
-    let (to, solution) = super::position_of(post, point, axis)?;
+    let (point, axis) = position::transformed(post, target);
+    let (to, solution) = live_tool::position_of(post, point, axis)?;
     rotary::establish(post, solution)?;
     go(post, to, target)?;
     post.path.arrive(target);

@@ -15,11 +15,11 @@ use crate::control::Control;
 use crate::control::sinumerik::live_tap;
 use crate::control::tap;
 use crate::control::word_address::cycle as words;
-use crate::control::word_address::motion::Motion;
 use crate::control_state::Rotation;
 use crate::errors::PostCode;
 use crate::operation::Feed;
 use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
+use crate::operation::motion::Motion;
 use crate::path::{expand, rapid};
 
 /// The code of a hole of a live tool; `None` where the machine has none, or the hole is

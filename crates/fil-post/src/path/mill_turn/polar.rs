@@ -13,17 +13,18 @@ use fil_machine::locations::{self as loc, MillTurnMode};
 use fil_machine::modes::{FeedMode, Plane};
 use nalgebra::{Point2, Point3, Rotation3, Unit};
 
+use super::live_tool::CENTER;
 use crate::control::family;
 use crate::control::needs::{self, Act};
 use crate::control::sinumerik::transformation;
 use crate::control::word_address::modes;
-use crate::control::word_address::motion::Motion;
 use crate::control::{Control, Function};
 use crate::control_state::{Place, Source, modal};
 use crate::errors::PostCode;
+use crate::operation::motion::Motion;
 use crate::operation::{Arc, Feed, MotionKind, Target};
-use crate::path::arc::{flat, sweep};
-use crate::path::{rapid, rotary};
+use crate::path::arc_parts::{flat, sweep};
+use crate::path::{position, rapid};
 use crate::post::Post;
 
 /// Nearest to the axis of the spindle that a path may pass, mm: nearer, C would have to
@@ -119,8 +120,8 @@ pub(super) fn begin(
         let (sine, cosine) = libm::sincos(turn * f64::from(number) / f64::from(parts));
         go(post, [radius * cosine, radius * sine, point.z], AxisSet::XY, &feed, 0)?;
     }
-    go(post, [end.x, end.y, point.z], AxisSet::XY, &feed, rotary::word_of(post, target))?;
-    go(post, [end.x, end.y, point.z], AxisSet::Z, &feed, rotary::word_of(post, target))?;
+    go(post, [end.x, end.y, point.z], AxisSet::XY, &feed, position::word_of(post, target))?;
+    go(post, [end.x, end.y, point.z], AxisSet::Z, &feed, position::word_of(post, target))?;
     arrive(post, target);
     Ok(())
 }
@@ -137,15 +138,15 @@ pub(super) fn line(
 ) -> Result<()> {
     post.control.require(Act::MillTurnMotion)?;
     if let Some(from) = post.path.point {
-        let from = rotary::transformed(post, Target { point: from, ..target }).0;
+        let from = position::transformed(post, Target { point: from, ..target }).0;
         let nearest = nearest(from.xy(), point.xy());
-        let moves = (from.xy() - point.xy()).norm() > super::CENTER;
+        let moves = (from.xy() - point.xy()).norm() > CENTER;
         if moves && nearest < least(post)? {
             return passes(nearest);
         }
     }
     let feed = feed_of(post, kind)?;
-    let word = rotary::word_of(post, target);
+    let word = position::word_of(post, target);
     let to = point.coords.into();
     match rising(post, point) {
         Some(_) if kind == MotionKind::Feed => return with_z(),
@@ -167,13 +168,13 @@ pub(super) fn line(
 /// A motion moves Z together with X and C, and upwards or not; `None` for any other.
 fn rising(post: &Post, to: Point3<f64>) -> Option<bool> {
     let from = post.path.point.map(|point| Target { point, axis: post.path.axis.given, word: 0 });
-    let from = from.map(|target| rotary::transformed(post, target).0);
+    let from = from.map(|target| position::transformed(post, target).0);
     let moves = |number: usize| {
         let on_tape = post.control.tables.axis(number).on_tape(to[number]);
         match (post.control.axis_position(number), on_tape, from) {
-            (Some(here), Ok(there), _) => (here - there).abs() > super::CENTER,
+            (Some(here), Ok(there), _) => (here - there).abs() > CENTER,
             // A text has moved nothing, but may have: the words are written again.
-            (None, _, Some(from)) => (from[number] - to[number]).abs() > super::CENTER,
+            (None, _, Some(from)) => (from[number] - to[number]).abs() > CENTER,
             _ => true,
         }
     };
@@ -226,7 +227,7 @@ fn feed_of(post: &Post, kind: MotionKind) -> Result<Feed> {
 pub(super) fn check_arc(post: &Post, arc: &Arc, target: Target) -> Result<()> {
     post.control.require(Act::MillTurnMotion)?;
     let Some(start) = post.path.point else { return Ok(()) };
-    let place = |point| rotary::transformed(post, Target { point, ..target }).0;
+    let place = |point| position::transformed(post, Target { point, ..target }).0;
     let ends = [start, target.point].map(|point| flat(arc, point));
     let center = place(arc.center);
     let of_circle = (libm::hypot(center.x, center.y) - ends[0].norm()).abs();
@@ -296,7 +297,7 @@ pub(super) fn end(post: &mut Post) -> Result<()> {
         false => control.state.forget(modal::PLANE, Source::Post),
     }
     let here = post.path.point.map(|point| Target { point, axis: post.path.axis.given, word: 0 });
-    let here = here.map(|target| rotary::transformed(post, target).0);
+    let here = here.map(|target| position::transformed(post, target).0);
     post.path.rotary = here.map(|point| [libm::atan2(point.y, point.x).to_degrees(), 0.0]);
     Ok(())
 }

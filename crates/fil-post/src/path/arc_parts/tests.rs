@@ -3,7 +3,6 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::cause::Cause;
-use crate::path::arc::least_angle;
 use crate::path::trial::post;
 
 /// An arc in X and Y that rises in Z.
@@ -46,10 +45,10 @@ proptest! {
         let post = post(&[]);
         let whole = plane_arc(center, radius, angle, sweep, ccw, z);
         for (step, most) in [(Step::Turns, 360.0), (Step::Halves, 180.0), (Step::Quadrants, 90.0)] {
-            let least = least_angle(&post, &whole);
+            let least = least_angle(&post.control, &whole);
             let mut parts = Parts::new(&whole, step, least);
             let (mut at, mut done) = (whole.from, 0.0);
-            while let Some(part) = parts.next(&post).unwrap() {
+            while let Some(part) = parts.next(&post.control).unwrap() {
                 prop_assert_eq!(part.from, at);
                 prop_assert!(part.sweep > 0.0 && part.sweep <= most + least + 1e-9, "{}", part.sweep);
                 let off = libm::hypot(part.to[0] - center[0], part.to[1] - center[1]) - radius;

@@ -1,0 +1,93 @@
+//! The positions of the axes for a live tool.
+
+use crate::control::Control;
+use crate::errors::PostCode;
+use crate::path::position;
+use crate::path::position::Solution;
+use crate::post::Post;
+use fil_diag::Result;
+use fil_machine::axes::Position;
+use nalgebra::{Point3, Vector3};
+
+/// Tool axes nearer than this are one.
+const SAME_AXIS: f64 = 1e-5;
+
+/// A tool nearer than this to the axis of the spindle leaves C open, mm or inch.
+pub(super) const CENTER: f64 = 1e-9;
+
+const FULL: f64 = 360.0;
+
+/// How a live tool lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lie {
+    /// Along Z.
+    Axial,
+    /// Square to it.
+    Radial,
+}
+
+pub(super) fn lie(axis: Vector3<f64>) -> Result<Lie> {
+    let axis = axis.normalize();
+    if (axis - Vector3::z()).norm() < SAME_AXIS {
+        return Ok(Lie::Axial);
+    }
+    if axis.z.abs() < SAME_AXIS {
+        return Ok(Lie::Radial);
+    }
+    PostCode::MillTurn.err(
+        "the tool axis lies neither along Z nor square to it, and no axis of the machine leans a tool",
+    )
+}
+
+/// The machine mills by Y.
+pub(super) fn has_y(control: &Control) -> bool {
+    !control.tables.transforms && !control.tables.axis(1).is_off()
+}
+
+/// The positions of the axes for a live tool: C rounded as the tape has it, so that X, Y
+/// and Z belong to where it really stands.
+///
+/// # Errors
+/// A tool axis the machine can't reach; a way beside the axis of the spindle without Y.
+pub fn position_of(
+    post: &Post,
+    point: Point3<f64>,
+    axis: Vector3<f64>,
+) -> Result<(Position, Solution)> {
+    let last = post.path.rotary.unwrap_or_else(|| position::on_tape(post))[0];
+    let has_y = has_y(&post.control);
+    let asked = match lie(axis)? {
+        Lie::Axial if has_y || libm::hypot(point.x, point.y) < CENTER => last,
+        Lie::Axial => libm::atan2(point.y, point.x).to_degrees(),
+        Lie::Radial => libm::atan2(axis.y, axis.x).to_degrees(),
+    };
+    let tables = &post.control.tables;
+    let c = tables.axis(3).on_tape(within_travel(post, asked, last)?)?;
+    let mut linear = tables.chain().linear(point, [c, 0.0]);
+    if !has_y {
+        let half_digit = tables.axis(3).resolution().to_radians();
+        let most = libm::hypot(point.x, point.y) * half_digit + CENTER;
+        if linear.y.abs() > most.max(tables.axis(0).resolution()) {
+            return PostCode::MillTurn.err(format!(
+                "the tool would stand {:.4} beside the axis of the spindle, and the machine has no Y",
+                linear.y
+            ));
+        }
+        linear.y = 0.0;
+    }
+    Ok(([linear.x, linear.y, linear.z, c, 0.0], Solution::OfLiveTool([c, 0.0])))
+}
+
+/// The angle and whole turns on top that lies nearest to the last one within the travel.
+fn within_travel(post: &Post, angle: f64, last: f64) -> Result<f64> {
+    let Some(spindle) = &post.control.tables.chain().rotaries[0] else { return Ok(angle) };
+    let near = angle + FULL * ((last - angle) / FULL).round();
+    let allowed = |angle: &f64| {
+        spindle.min.is_none_or(|min| *angle >= min) && spindle.max.is_none_or(|max| *angle <= max)
+    };
+    let found = [0.0, FULL, -FULL, 2.0 * FULL, -2.0 * FULL].map(|turn| near + turn);
+    found.into_iter().find(allowed).ok_or_else(|| {
+        fil_machine::errors::MachineCode::AxisLimit
+            .diag(format!("{}{near:.3} lies outside the travel", spindle.letter))
+    })
+}
