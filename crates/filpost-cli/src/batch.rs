@@ -38,11 +38,15 @@ pub fn run(args: &PostArgs) -> Result<Status, Error> {
     let jobs = jobs(args)?;
     let bar = bar(&jobs);
     let mut rows = Vec::new();
+    let mut refusals = Repeated::default();
     each(args, &jobs, &bar, |job, outcome| {
-        bar.suspend(|| tell(job, &outcome));
+        if !refusals.has_told(&outcome) {
+            bar.suspend(|| tell(job, &outcome));
+        }
         rows.push(Row::new(job, &outcome));
     });
     bar.finish_and_clear();
+    refusals.tell_rest();
     table(&rows, start.elapsed());
     Ok(rows.iter().map(|row| row.status).max_by_key(|status| *status as u8).unwrap_or(Status::Done))
 }
@@ -252,6 +256,43 @@ fn bar(jobs: &[Job]) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {bytes_per_sec}  {eta}")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::new(jobs.iter().map(length).sum()).with_style(style)
+}
+
+/// Refusals that say the same of many files, as where the option file of all is missing: the
+/// first ones are shown, the others counted.
+#[derive(Default)]
+struct Repeated {
+    /// Code and message of each refusal, and how many files have it. In the order of the files.
+    seen: Vec<(String, usize)>,
+}
+
+/// Files for which the same refusal is shown.
+const MOST_ALIKE: usize = 3;
+
+impl Repeated {
+    /// Counts a refusal; true for one that enough files before have had, and that has no warnings.
+    fn has_told(&mut self, ended: &Ended) -> bool {
+        let Some(outcome) = ended.as_ref().filter(|outcome| outcome.warnings.is_empty()) else {
+            return false;
+        };
+        let Err(error) = &outcome.result else { return false };
+        let text = |diag: &Diag| format!("{} {}", diag.code.name(), diag.message);
+        let text = error.diags().iter().map(text).collect::<Vec<_>>().join("; ");
+        let at = self.seen.iter().position(|(seen, _)| *seen == text).unwrap_or_else(|| {
+            self.seen.push((text, 0));
+            self.seen.len() - 1
+        });
+        self.seen[at].1 += 1;
+        self.seen[at].1 > MOST_ALIKE
+    }
+
+    /// A line for each refusal with files that were not shown.
+    fn tell_rest(&self) {
+        for (text, count) in self.seen.iter().filter(|(_, count)| *count > MOST_ALIKE) {
+            let more = summary::counted((count - MOST_ALIKE) as u64, "more file");
+            output::say(&format!("{text}: the same in {more}"));
+        }
+    }
 }
 
 /// Messages of a job, under its name.

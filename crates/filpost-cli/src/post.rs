@@ -83,8 +83,9 @@ pub fn tell(job: &Job, outcome: &Outcome) {
     };
     for (section, count) in &report.swallowed {
         let records = summary::counted(*count, "record");
+        let them = if *count == 1 { "it" } else { "them" };
         output::say(&format!(
-            "note: {records} taken by the section {section} wrote nothing where they stand"
+            "note: section {section} took {records} and wrote nothing for {them}"
         ));
     }
     for path in &report.script_files {

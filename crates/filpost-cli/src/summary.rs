@@ -68,7 +68,7 @@ pub fn line(post: &str, report: &Report, warnings: usize, time: Duration) -> Str
         line.push_str(&format!("{separator}{unit} ({source})"));
     }
     if report.words_beside {
-        line.push_str(", extents left out: POSTN or REPEAT wrote words of their own");
+        line.push_str(", no extents: POSTN or REPEAT wrote axis words");
     }
     if let Some(dialect) = &report.dialect {
         line.push_str(&format!(", dialect {dialect}"));

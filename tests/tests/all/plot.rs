@@ -139,10 +139,7 @@ fn the_page_draws_tells_and_zooms() {
     );
     assert_eq!(said["early"][2], 0, "the arc is not yet drawn: {said:#}");
     let text = |name: &str| said[name].as_str().unwrap_or_default().to_string();
-    assert!(
-        text("inForce").contains("T1 · F 200 mm/min · S 900 turns/min · clockwise"),
-        "{said:#}"
-    );
+    assert!(text("inForce").contains("T1 · F 200 mm/min · S 900 rpm · clockwise"), "{said:#}");
     assert!(text("clicked").contains("G3 Y40. I0. J20."), "{said:#}");
     assert_eq!((&said["row"], &said["allAgain"]), (&true.into(), &true.into()), "{said:#}");
     // A pixel may be that of a mark.

@@ -106,7 +106,7 @@ fn the_page_needs_no_mouse() {
     let text = |name: &str| said[name].as_str().unwrap_or_default().to_string();
     assert_eq!(
         text("stepped"),
-        "line 6 · X0 Y10 Z0 · T1 · G54 · F 12.566 mm/min · S 900 turns/min · clockwise · after 0:02:30"
+        "line 6 · X0 Y10 Z0 · T1 · G54 · F 12.566 mm/min · S 900 rpm · clockwise · after 0:02:30"
     );
     assert_eq!(text("row"), "8T2 M6");
     assert_eq!(text("line"), "line 8");

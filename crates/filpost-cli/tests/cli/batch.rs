@@ -98,3 +98,16 @@ fn scripts_that_write_run_one_after_the_other() {
     assert_eq!(ran.status, 0, "{ran:?}");
     assert_eq!(place.text("log/log.txt").map(|log| log.lines().count()), Some(6));
 }
+
+#[test]
+fn the_same_refusal_of_many_files_is_shown_three_times_and_counted() {
+    let wrong = SMALL.replace("UNITS", "MACHIN / UNCX01, 1\nUNITS");
+    let place = (1..=20)
+        .fold(Folder::new(), |place, n| place.with(&format!("cl/op{n:02}.ncl"), wrong.as_str()));
+    let ran = place.with("cl/good.ncl", SMALL).run(&["post", "cl", "-o", "nc"]);
+    assert_eq!(ran.status, 1);
+    assert_eq!(ran.err.matches("E0714 MACHIN names no post").count(), 3, "{}", ran.err);
+    let rest = "E0714 there is no post for MACHIN/UNCX01,1: the same in 17 more files\n";
+    assert!(ran.err.contains(rest), "{}", ran.err);
+    assert!(ran.err.contains("1 file posted, 20 refused"), "{}", ran.err);
+}

@@ -84,8 +84,8 @@ function stateOf(piece, minutes) {
   const said = [`T${tool[row]}`];
   if (fixture[row]) said.push(offset(fixture[row]));
   if (path.strokes[piece] !== 0 && feedKind[row])
-    said.push(`F ${length(feed[row] / 1e4)} ${data.unit.name}${feedKind[row] === 1 ? "/min" : " a turn"}`);
-  if (speedKind[row] === 1) said.push(`S ${round(speed[row] / 1e4)} turns/min`);
+    said.push(`F ${length(feed[row] / 1e4)} ${data.unit.name}${feedKind[row] === 1 ? "/min" : "/rev"}`);
+  if (speedKind[row] === 1) said.push(`S ${round(speed[row] / 1e4)} rpm`);
   if (speedKind[row] === 2) said.push(`S ${round(speed[row] / 1e4 / SURFACE.size)} ${SURFACE.name}`);
   said.push(["spindle off", "clockwise", "counterclockwise"][spindle[row]], `after ${clock(minutes)}`);
   return said.join(" · ");
