@@ -6,10 +6,10 @@ fil_diag::codes! {
         /// JUMPTO to a label that is not there.
         UnknownLabel = 201, Error, "unknown label",
             "A jump leads to a label of the same section, macro or global area; there is none of this name.",
-            "Put the label before a statement as `NAME)`, in the same section.";
+            "Write `NAME)` before a statement of the same section.";
         /// Two statements with one label.
         LabelTwice = 202, Error, "label given twice",
-            "A jump could not tell which of the two statements is meant.",
+            "A jump to this label is ambiguous.",
             "Rename one of the labels.";
         /// Jump from outside into a DO.
         JumpIntoLoop = 203, Error, "jump into a loop",
@@ -22,19 +22,19 @@ fil_diag::codes! {
         /// Wrong number of arguments.
         WrongArguments = 205, Error, "wrong number of arguments",
             "The function, array, macro or POSTF number takes another number of arguments.",
-            "Compare the call with its description.";
+            "`filpost explain NAME` shows the arguments.";
         /// POSTF number without a reading.
         UnknownPostf = 206, Error, "unknown POSTF number",
-            "What this POSTF number does is not known, so running on would guess.",
-            "Give the number an operation in a file for --compat if your manual says what it does.";
+            "The meaning of this POSTF number is not published.",
+            "If your manual documents the number, give it an operation in a file for --compat.";
         /// CALL of a macro that is not there.
         UnknownMacro = 207, Error, "unknown macro",
             "No FIL file defines a macro of this name.",
             "Check its spelling, or load the file that holds NAME=MACRO/….";
         /// A macro that calls itself.
         RecursiveMacro = 208, Error, "macro calls itself",
-            "Parameters of a macro have one place each, so a macro must not run inside itself.",
-            "Turn the recursion into a loop.";
+            "A macro has one set of parameters, so it can't call itself.",
+            "Use a loop instead.";
         /// Macro, array or parameter defined twice.
         DefinedTwice = 209, Error, "name defined twice",
             "A macro, array or parameter of this name exists already.",
@@ -53,15 +53,15 @@ fil_diag::codes! {
             "Give the array a subscript, or use another name.";
         /// Form that the machine does not have yet.
         NotYet = 213, Error, "form not supported yet",
-            "The meaning of this form is not settled, so it is refused and not guessed.",
-            "Rewrite the statement with the documented forms.";
+            "The meaning of this form is not settled, so it is refused.",
+            "Use one of the documented forms.";
         /// A FIL file that can't be included.
         IncludeFailed = 214, Error, "file can't be included",
-            "INCLUD needs a file the host can give, and no file may include itself.",
+            "INCLUD needs an existing file in the folder of the FIL file, and no file may include itself.",
             "Check the name and the folders the run may read.";
         /// Something too large for the bytecode.
         TooLarge = 215, Error, "program too large",
-            "A section, macro or global area has more operations, names or nesting than the machine can hold.",
+            "A section, macro or global area has too many operations or names, or is nested too deep.",
             "Split it into smaller sections or macros.";
         /// ICODEF or an extension without a word.
         WordExpected = 216, Error, "word expected",
@@ -73,51 +73,51 @@ fil_diag::codes! {
             "Use a name of two or more letters.";
         /// Our own POSTF reading is used.
         OwnReading = 218, Warning, "POSTF number read in our own way",
-            "No public source says what this number does; the operation is our own choice.",
-            "Compare it with your manual and correct it in a file for --compat.";
+            "No public source documents this number; the operation is our own choice.",
+            "Compare it with your manual, and correct it in a file for --compat.";
         /// Extension of filpost under --strict.
         Extension = 219, Error, "extension of filpost",
             "The function is not part of FIL; --strict keeps scripts portable.",
             "Write it with POSTF, or run without --strict.";
         /// DATA with something else than constants.
         NotConstant = 222, Error, "value is no constant",
-            "DATA/ declares a table before anything runs, so it holds numbers and texts as they are written.",
+            "DATA/ declares a table before anything runs, so it can hold only constant numbers and texts.",
             "Write DATA/name,v1,v2,… with constants, or reserve an array with RESERV and set it.";
         /// CIMFIL/OFF closes a block that sends the record on.
         OpenAroundRecord = 223, Doubt, "block left open around the record",
-            "The section sends its record on inside a block without its end: with the end in another line the record would be sent on another way too, and without it records are lost.",
+            "The section processes its record inside a block without an end. Where the block ends decides which records are lost.",
             "Add the missing ENDIF or ENDCAS where the block ends.";
         /// A variable where a word of the same name can be meant.
         NameOrWord = 224, Doubt, "variable or word",
-            "A statement sets this name, so its value stands here; but a post word takes a word of this name, and that would be lost.",
-            "Give the variable a name that is no word of the vocabulary.";
+            "A statement sets this name, so its value would replace the vocabulary word that the post word takes here.",
+            "Rename the variable: its name must not be a vocabulary word.";
         /// A word that is read as a variable.
         WordAsValue = 225, Doubt, "word read as a variable",
-            "Nothing sets this name, so it is EMPTY here and equals no word of a record.",
+            "Nothing sets this name, so it is EMPTY and never equals a word of a record.",
             "Write ICODEF(word) for the code of a word.";
         /// A post word that is most likely another statement.
         OtherStatement = 226, Doubt, "not a statement of FIL",
-            "The word is misspelt, is of another language, or is one that filpost does not carry out; as a record it would only reach the post.",
-            "Compare it with the statements of FIL.";
+            "The word is misspelled, belongs to another language, or has no effect in filpost; as a record it would only go to the post.",
+            "Correct the spelling; docs/language.md lists the statements of FIL.";
         /// A macro that only the vendor's post calls.
         ReservedMacro = 227, Doubt, "macro that the post does not call",
-            "A macro of this name edits what the post writes, and nothing calls it here: the settings of the machine do not, or filpost does not know how.",
-            "Switch it on in machine.toml, do its work in sections, or remove the macro.";
+            "A macro of this name edits the output of the post, but nothing calls it: the machine settings don't switch it on, or filpost does not support it.",
+            "Switch it on in machine.toml, move its work into sections, or remove the macro.";
         /// A section whose key fits no record.
         NeverMatches = 228, Doubt, "section that takes no record",
-            "No record has these words or numbers where the key names them, so the section would never run.",
-            "Name a major word, the minor words right behind it, or a type and subtype of CLDATA.";
+            "No record has these words or numbers in this order, so the section would never run.",
+            "Write a major word and the minor words right after it, or a type and subtype of CLDATA.";
         /// A name of an added function that can't be taken.
         FunctionName = 229, Error, "name of an added function",
-            "A function that the embedding program adds has a name of its own: no built-in function, statement, letter or CL word is called so.",
-            "Give the function another name, such as one that begins with the name of your program.";
+            "A function of the embedding program must not have the name of a built-in function, statement, letter or CL word.",
+            "Rename the function, for example with the name of your program as a prefix.";
         /// A name in a list of texts that would be written as it stands.
         NameInText = 247, Doubt, "name without a value in a text",
-            "A list of texts joins values; a name that nothing sets has none.",
+            "A list of texts joins values, and nothing sets this name.",
             "Check its spelling, or put it between apostrophes.";
         /// A letter where its number is hardly meant.
         LetterAsValue = 251, Doubt, "letter as a value",
-            "A to Z are the numbers 1 to 26, the addresses of POSTN and REPEAT; as a value such a number is hardly meant.",
+            "A to Z are the numbers 1 to 26, the addresses of POSTN and REPEAT, and are rarely intended as a value.",
             "Give the value a name of two letters or more. LASTF(X) is the last X written, POSTF(7,6) the X of a point.";
     }
 }
@@ -128,39 +128,39 @@ fil_diag::codes! {
     pub enum LintCode {
         /// A section with a way that sends nothing.
         Swallows = 220, Warning, "section can swallow its record",
-            "A section takes its record: on this way neither a post word nor POSTF(13) stands, so the record has no effect.",
-            "Call POSTF(13) where the post is to act as usual.";
+            "A section takes its record. This path has neither a post word nor POSTF(13), so the record has no effect.",
+            "Call POSTF(13) where the post should process the record.";
         /// A name that no statement sets.
         NeverAssigned = 221, Warning, "name is set nowhere",
             "No statement of the loaded files gives this name a value, so it is EMPTY wherever it is read.",
             "Check its spelling; a vocabulary word is compared as ICODEF(word).";
         /// POSTF(7,n) behind the couplets of a record.
         ShiftingWord = 230, Warning, "word whose number can shift",
-            "The record has optional couplets; one more or one less before this word, and POSTF(7,n) reads another one.",
-            "Look for the couplet by its word: COUPLF(word), or POSTF(9,4,ICODEF(word)) and the word after that.";
+            "The record has optional couplets; with one more or less before this word, POSTF(7,n) reads another word.",
+            "Search the couplet by its word: COUPLF(word), or POSTF(9,4,ICODEF(word)) and the word after it.";
         /// A name that is read before it is set on some way.
         ReadEarly = 231, Warning, "name read before it is set",
-            "On some way to this statement nothing has given the name a value yet, so it is EMPTY (999999) there.",
+            "On some path to this statement the name has no value yet, so it is EMPTY (999999).",
             "Give it a first value in the global area.";
         /// A statement no way leads to.
         Unreachable = 232, Warning, "statement never runs",
-            "No way leads to this statement: a jump or a loop without end stands before it.",
-            "Remove it, or put a label before it and a jump to the label where it is needed.";
+            "Nothing reaches this statement: there is a jump or an endless loop before it.",
+            "Remove it, or add a label and a jump to it.";
         /// Two WHEN parts for one value.
         SameWhen = 233, Warning, "WHEN for a value that is taken",
-            "An earlier WHEN of the same CASE takes this value, so this part does not run for it.",
+            "An earlier WHEN of the same CASE has this value, so this branch does not run for it.",
             "Remove the value from one of the two.";
         /// A label no jump names.
         UnusedLabel = 234, Warning, "label is not used",
             "No jump and no DO names this label.",
-            "Remove it, or check the spelling of the jump that was to lead here.";
+            "Remove it, or check the spelling of the jump to it.";
         /// A jump into a part of an IF or CASE.
         JumpIntoBlock = 235, Warning, "jump into a block",
-            "The label lies inside a part of an IF or CASE that the jump is outside of: the condition is not asked.",
+            "The label is inside an IF or CASE and the jump is outside, so the condition is skipped.",
             "Put the label before or after the block.";
         /// A common location nothing is known of.
         UnnamedCommon = 236, Warning, "common location without a name",
-            "Nothing is known of this location, so the post neither sets it nor acts on it.",
+            "This location is not documented, so the post neither sets nor uses it.",
             "Check type and number: 1 is INTCOM, 2 RELCOM, 3 DBLCOM.";
         /// .EQ. or .NE. of computed reals.
         RealsCompared = 237, Warning, "computed reals compared for equality",
@@ -168,11 +168,11 @@ fil_diag::codes! {
             "Compare the difference with a tolerance: ABSF(AA-BB).LT.0.0001.";
         /// A loop without a way out.
         EndlessLoop = 238, Warning, "loop without end",
-            "No way leads out of this loop; the run stops when the limit of passes is used up.",
-            "Put a jump out of the loop, or a step other than 0.";
+            "The loop has no exit; the run stops at the limit of iterations.",
+            "Add a jump out of the loop, or a step other than 0.";
         /// POSTN or REPEAT of a letter the machine lacks.
         NoAddress = 239, Warning, "the machine does not write this letter",
-            "POSTN and REPEAT name an address that has no position on the tape of this machine.",
+            "POSTN or REPEAT uses an address that this machine does not write.",
             "Give the address a position in machine.toml, or use another letter.";
         /// A macro nobody calls.
         UnusedMacro = 240, Warning, "macro is not called",
@@ -181,39 +181,39 @@ fil_diag::codes! {
         /// An array nobody uses.
         UnusedArray = 241, Warning, "array is not used",
             "No statement reads or sets an element of this array.",
-            "Remove its RESERV, or check the spelling where it was to be used.";
+            "Remove its RESERV, or check the spelling where it should be used.";
         /// A word near a known one.
         MisspeltWord = 242, Warning, "word is perhaps misspelt",
-            "The word is in no vocabulary and differs little from one that is.",
+            "The word is unknown, and similar to a known one.",
             "Correct the word; if it is one of your own, allow it with a comment.";
         /// A variable with the name of a word.
         NameIsWord = 243, Warning, "variable has the name of a word",
-            "Where a post word is meant to take this word, it takes the value of the variable.",
-            "Give the variable a name that is no word of the vocabulary.";
+            "A post word that should take this word takes the value of the variable.",
+            "Rename the variable: its name must not be a vocabulary word.";
         /// A section for a word that opens no statement.
         SectionNeverRuns = 244, Warning, "section may never run",
-            "No CL file that is known of has a statement that begins with this word.",
+            "No known CL file has a statement that begins with this word.",
             "Check its spelling; if it is a word of your own, allow it with a comment.";
         /// A post word that the post does not carry out.
         NoHandler = 245, Warning, "the post does not carry out this word",
             "The statement makes a record that the post has no handler for.",
-            "Write what the machine is to do with words the post knows, or with POSTN/OUT.";
+            "Use words that the post knows, or POSTN/OUT.";
         /// ICODEF of a word in no vocabulary.
         UnknownWord = 246, Warning, "word in no vocabulary",
-            "Only records of CL files that have this very word can have its code.",
+            "Only CL files with this exact word have its code.",
             "Check its spelling; if it is a word of your own, allow it with a comment.";
         /// ELSE right behind a one-line IF.
         LooseElse = 248, Warning, "ELSE behind an IF of one line",
             "A one-line IF has no ELSE, so this one belongs to the IF around it.",
-            "Write IF(condition)THEN … ELSE … ENDIF where the inner IF is meant, else put a CONTIN before the ELSE.";
+            "If the inner IF is meant, write IF(condition)THEN … ELSE … ENDIF; otherwise write CONTIN before the ELSE.";
         /// A letter in an expression.
         LetterInExpression = 249, Warning, "letter in an expression",
             "No statement sets this letter, so it is the number of its address, 1 to 26.",
             "Give the value a name of two letters or more.";
         /// A WHEN without statements before another one.
         EmptyWhen = 250, Warning, "WHEN without statements",
-            "No part of a CASE runs on into the next one, so nothing runs for these values.",
-            "Write WHEN/a,b where one part is for several values, or CONTIN where nothing is to run.";
+            "A branch of a CASE does not continue into the next one, so nothing runs for these values.",
+            "Write WHEN/a,b for a branch with several values, or CONTIN if nothing should run.";
     }
 }
 
@@ -227,22 +227,22 @@ fil_diag::codes! {
         /// A text where a number is needed, or the other way round.
         WrongType = 302, Error, "text and number mixed",
             "This operation needs the other kind of value.",
-            "Check which names of the line hold texts.";
+            "Check which names in the line are texts.";
         /// Subscript outside of its array.
         Subscript = 303, Error, "subscript out of range",
             "Subscripts are whole numbers from 1 to the size given in RESERV.",
             "Check the subscript or reserve a larger array.";
         /// Fuel is used up.
         OutOfFuel = 304, Error, "section runs too long",
-            "The limit of loop passes, calls and record reads is used up; this is most likely an endless loop.",
+            "The limit of loop iterations, calls and record reads is reached, probably by an endless loop.",
             "Check the condition that ends the loop, or raise the limit.";
         /// Calls too deep.
         CallDepth = 305, Error, "calls nested too deep",
             "The limit of macro calls within macro calls is reached.",
-            "Call macros less deep, or raise the limit.";
+            "Reduce the nesting, or raise the limit.";
         /// Too much text.
         TextLimit = 306, Error, "too much text",
-            "The limit of text held at a time is reached.",
+            "The limit of text in memory is reached.",
             "Make shorter texts, or raise the limit.";
         /// A DO step of 0.
         ZeroStep = 307, Error, "step of 0",
@@ -255,7 +255,7 @@ fil_diag::codes! {
         /// A name that was never set.
         NeverSet = 309, Warning, "name was never set",
             "The name has no value yet and is read as EMPTY (999999).",
-            "Set it before, in the global area for example.";
+            "Set it first, for example in the global area.";
         /// POSTF(7,n) past the end.
         PastEnd = 310, Warning, "word past the end of the record",
             "The record is shorter; the word is read as EMPTY (999999).",
@@ -282,48 +282,48 @@ fil_diag::codes! {
             "Compare the call with the table of POSTF numbers.";
         /// A word an extension looked for is not there.
         Missing = 316, Error, "nothing found",
-            "What this function looks for is not there, and no default is given.",
+            "The function finds nothing, and the call has no default.",
             "Give a default, or test with HASF first.";
         /// A function of the embedding program failed.
         HostFunction = 317, Error, "function failed",
-            "A function that the embedding program added to FIL refused the call.",
-            "See the sentence it gave.";
+            "A function of the embedding program refused the call.",
+            "See the message of the function.";
         /// A position the text does not have.
         TextPosition = 318, Error, "position outside of the text",
             "Characters of a text count from 1 to its length; a number of characters is whole and not negative, and an empty text can't be looked for.",
             "Test LNTHF and INDXF before this statement.";
         /// SCALF of something else than a number.
         NotANumber = 319, Error, "text is no number",
-            "A text that is to become a number holds its digits, with sign, point and exponent, and nothing else but blanks around them.",
+            "The text of a number has only digits, a sign, a point, an exponent, and blanks around them.",
             "Take the part with the digits first: TEXT/PART.";
         /// A number TEXT/CONVI or TEXT/CONVF can't write.
         Conversion = 320, Error, "number can't be written so",
-            "The number is EMPTY, not whole, or has more digits than its width or than can be exact; it is refused and not cut.",
+            "The number is EMPTY, not whole, or has too many digits for its width or for an exact value. It is not truncated.",
             "Give a larger width, or round the number first.";
         /// Files without a grant.
         FilesNotGranted = 321, Error, "files are not granted",
-            "A script reads and writes files only in folders that whoever runs it has granted.",
+            "A script reads and writes files only in folders that the user has granted.",
             "Grant a folder: --grant read=DIR or --grant write=DIR; in a program Builder::grant_read and grant_write.";
         /// The clock without a grant.
         ClockNotGranted = 322, Error, "clock is not granted",
-            "The same input must give the same program, so a script sees a date and time only when whoever runs it allows that.",
-            "Fix the moment: --set-clock 2026-01-31T12:00:00; or allow the clock: --clock system; in a program Builder::clock.";
+            "The same input must give the same program, so a script gets a date and time only if the user allows it.",
+            "Set a time: --set-clock 2026-01-31T12:00:00; or allow the clock: --clock system; in a program Builder::clock.";
         /// SPAWNF without a grant.
         SpawnNotGranted = 323, Error, "commands are not granted",
             "A script can't run other programs; the filpost command never allows it.",
             "Do the work before or after filpost; a program that embeds it may allow commands with Builder::allow_spawn.";
         /// FILEF, TEXT/READ or WRITE/ on a unit that is not open for that.
         FileUse = 324, Error, "file used in a wrong way",
-            "Units are 1 and 2; a unit is opened, read or written as it was opened, and closed before it is opened again.",
-            "Compare with FILEF in the language reference; FILEF(unit,END) is 1 when no line is left.";
+            "Units are 1 and 2. Open a unit, read or write it as it was opened, and close it before you open it again.",
+            "`filpost explain FILEF` shows the calls; FILEF(unit,END) is 1 when no line is left.";
         /// ERROR/
         Refused = 325, Error, "the script refuses this input",
-            "The script looked at its input and says in its own words why no NC program can be made of it.",
-            "Correct what the message names; the statement of the script and the CL record stand beside it.";
+            "The script checked its input and gives the reason in its own words.",
+            "Correct what the message names.";
         /// WARN/
         Warned = 326, Warning, "the script warns",
-            "The script makes the NC program, but its author wants this to be looked at first.",
-            "Read the message; the statement of the script and the CL record stand beside it.";
+            "The script writes the NC program, but its author asks you to check this first.",
+            "Check what the message names.";
     }
 }
 

@@ -6,46 +6,46 @@ fil_diag::codes! {
         /// `--deny-warnings`.
         Denied = 801, Error, "warnings are not allowed here",
             "The run was started with --deny-warnings and there were warnings.",
-            "Mend what the warnings name, or leave --deny-warnings out.";
+            "Correct what the warnings name, or run without --deny-warnings.";
         /// Output over an input.
         OverInput = 802, Error, "the output would replace an input",
-            "Two files of this run are the same file, or --map names a file that is there and is no line map.",
+            "Two files of this run are the same file, or --map names an existing file that is not a line map.",
             "Choose another name for the output.";
         /// `filpost test` without cases.
         NoCases = 803, Error, "no regression cases",
             "A test run without cases would prove nothing.",
-            "Name a folder that holds folders with a case.toml.";
+            "Name a folder that contains folders with a case.toml.";
         /// `filpost test --init` over a case.
         CaseExists = 804, Error, "the folder holds a case already",
-            "A case that is there may be proof of something; it is not replaced.",
+            "An existing case is never replaced.",
             "Choose another folder, or remove the old case.";
         /// Two files of one name in a case to be.
         SameName = 805, Error, "two files of the case have one name",
-            "All files of a case lie in its folder.",
-            "Give one of them another name.";
+            "All files of a case are in one folder.",
+            "Rename one of them.";
         /// `filpost trace` without a line.
         NoLine = 806, Error, "no line to trace",
-            "A question is FILE:LINE, of an NC program also FILE:LINE:COLUMN.",
-            "Put a colon and the number of the line after the name of the file.";
+            "The argument is FILE:LINE; for an NC program also FILE:LINE:COLUMN.",
+            "Write a colon and the line number after the file name.";
         /// A folder without CL files.
         NoClFiles = 807, Error, "no CL files in this folder",
-            "Of a folder those files are posted that end as CL files do; folders in it are not looked into.",
-            "Name the folder that holds the CL files, or name the files themselves.";
+            "From a folder, files with the endings of CL files are posted, but not those of its subfolders.",
+            "Name the folder of the CL files, or the files themselves.";
         /// `filpost new` over something.
         FolderExists = 808, Error, "the folder is there already",
-            "A new post begins in a folder of its own; nothing that is there is written over.",
+            "A new post needs a new folder; existing files are never overwritten.",
             "Choose another name.";
         /// `filpost new` of `..` or `/`.
         NoName = 809, Error, "no name for the new post",
-            "The post has the name of its folder, and this path ends with none.",
+            "The post gets the name of its folder, and this path does not end with a name.",
             "Write the name of the folder: filpost new my-post.";
         /// `filpost test --init` with a folder that can't be copied.
         NotCopied = 810, Error, "the folder can't be part of a case",
-            "A case holds a copy of the folder that its scripts read: files and folders, at most 1000 of them and 64 MB. A link could lead out of it.",
+            "A case has a copy of the folder that its scripts read: at most 1000 files and folders and 64 MB, and no links, which could lead out of it.",
             "Grant a folder with the files that the scripts read, and nothing else.";
         /// `filpost machine show` of a name that no setting has.
         NoSetting = 811, Error, "no such setting",
-            "A part of a name that begins no setting would show an empty list.",
+            "No name of a setting begins with this text.",
             "`filpost machine show --all` lists every setting; `-m FILE` names the machine.";
     }
 }

@@ -11,15 +11,15 @@ fil_diag::codes! {
         /// A file can't be read.
         CantRead = 701, Error, "file can't be read",
             "The file does not exist, or reading it failed.",
-            "Check the name and the rights of the file.";
+            "Check the name and the permissions of the file.";
         /// A file can't be written.
         CantWrite = 702, Error, "file can't be written",
             "The folder is read-only, the disk is full, or the output was closed.",
-            "Nothing was left under the output name; make room or choose another folder.";
+            "No file was left under the output name. Free some space or choose another folder.";
         /// No ready post of that name.
         NoReadyPost = 703, Error, "no ready post of that name",
-            "The name is none of the posts inside filpost.",
-            "Use one of the names listed, or give a machine.toml.";
+            "No ready post has this name.",
+            "`filpost posts` lists the names; -m takes a machine.toml.";
         /// A compat file.
         CompatFile = 704, Error, "compat file can't be used",
             "The file that corrects POSTF numbers must be TOML with known operations.",
@@ -30,56 +30,56 @@ fil_diag::codes! {
             "Correct the line shown.";
         /// A file of a script outside of its folder.
         OutsideFolder = 706, Error, "file outside of the granted folder",
-            "A script is granted a folder and what is below it; no name, `..` or link leads out of there.",
+            "A grant covers a folder and its subfolders; no name, `..` or link may lead out of it.",
             "Name the file relative to the folder, or grant another folder.";
         /// A line map.
         MapFile = 707, Error, "line map can't be used",
-            "A line map has its first and its last line, and each line between them names what came before.",
+            "The line map is truncated, or was edited.",
             "Post the CL file again with --map.";
         /// A line map of another run.
         OtherRun = 708, Error, "line map of another run",
-            "The map tells the lines of the files it was written with; one of them has changed since.",
+            "The map belongs to the files of its run; one of them has changed since.",
             "Post the CL file again with --map, or name the map that belongs to the program.";
         /// A question about a line that is not there.
         NoSuchLine = 709, Error, "there is no such place",
-            "A question names a line of the NC program, the CL file or a FIL file, from 1; of the NC program a column too.",
+            "The file has no such line or column.",
             "Count lines from 1, columns in characters.";
         /// No line map for a question.
         NoMap = 710, Error, "no line map",
-            "The map of OUT.nc is looked for as OUT.nc.map, that of a CL or FIL file among the maps in its folder and in the current one.",
+            "The map of OUT.nc is OUT.nc.map; that of a CL or FIL file is searched in its folder and in the current folder.",
             "Post the CL file with --map, or name the map with --map.";
         /// The embedding program has stopped the run.
         Cancelled = 711, Error, "run cancelled",
-            "The program around filpost has stopped the run before its end.",
-            "What was written until then is not an NC program; run it again.";
+            "The embedding program stopped the run before its end.",
+            "The output so far is not an NC program; run it again.";
         /// A record from memory that makes no sense.
         BadRecord = 712, Error, "record from memory can't be used",
-            "A record that a program hands over is as a statement would make it: words of the program's vocabulary, finite numbers, texts without control characters, motion with its coordinates.",
+            "A record from a program must be one that a statement could make: known words, finite numbers, texts without control characters, a motion with its coordinates.",
             "Make the record with Record::statement, Record::goto or Record::text_command.";
         /// A code that can't be allowed.
         CannotAllow = 713, Error, "code has no level",
-            "Warnings have levels, and doubts: findings that can be carried out but may not be what is meant. Other errors stand.",
+            "Only warnings and doubts have levels. A doubt is a finding that the post can carry out, but that may not be intended. Other errors can't be allowed.",
             "Correct what the error names.";
         /// MACHIN names no post.
         NoPost = 714, Error, "MACHIN names no post",
-            "A program for another machine is worse than none, so a CL file that names its machine is posted for no other.",
-            "Put the option file beside the CL file, name its folder with --post-path, or choose a post with -p or -m.";
+            "A CL file that names its machine is never posted for another one.",
+            "Choose a post with -p or -m, or put the option file into the folder of the CL file or one named with --post-path.";
         /// A record as it is written that the post can't carry out.
         WrittenForm = 716, Error, "record is in the form of its CAM system",
-            "Sections see statements as they are written here; the post carries out what they mean in Creo's form, which is not known for a record that FIL has changed.",
-            "Make the statement anew in the section, in Creo's form, or leave --raw-records out.";
+            "With --raw-records sections see statements as they are written. The meaning of a changed record in Creo's form is not known.",
+            "Write a new statement in Creo's form in the section, or run without --raw-records.";
         /// A program beyond the limit of the host.
         TooLong = 717, Error, "the program is too long",
-            "The program around filpost has set how many bytes a program may have, so that a loop which never ends does not fill the disk.",
+            "The embedding program limits the size of a program, so that an endless loop does not fill the disk.",
             "Look for the loop that writes; an embedding program can raise `Limits::output_bytes`.";
         /// A post word in a macro that edits.
         WhileWriting = 718, Error, "not while a block is written",
-            "The macro is called with a block that is on its way to the tape: nothing else can be written, read or set before it is there.",
-            "Change the parameters of the macro alone; do the rest in a section.";
+            "The macro edits a block that is not written yet: until then nothing else can be written, read or set.",
+            "Change only the parameters of the macro; do the rest in a section.";
         /// PROGF changed what PROGF tells.
         OwnTotals = 719, Error, "the program's totals depend on themselves",
-            "A script asked for totals of the program before its motions came and was told what a first pass had counted; the program it then wrote comes to something else, so its header would be wrong.",
-            "Use what PROGF, TLISTF, OPERF and TOOLF(NEXT) tell in texts alone, not in motions, tools, feeds or dwells.";
+            "The script used totals from the first pass, but the program that it wrote has other totals, so its header would be wrong.",
+            "Use PROGF, TLISTF, OPERF and TOOLF(NEXT) only in texts, not in motions, tools, feeds or dwells.";
         /// A name that Windows does not allow.
         FileName = 720, Error, "no name for a file",
             "Windows takes NUL, CON, AUX, PRN, COM1 and LPT1 for devices whatever ending they have, leaves points and blanks at the end of a name out, and keeps some characters for itself: what is written there is lost or is another file. The files of scripts have such names on no system, as a post must do the same on each.",
@@ -91,15 +91,15 @@ fil_diag::codes! {
         /// No FINI.
         NoFini = 752, Warning, "CL file without FINI",
             "The file may have been cut off; the program ends where the file ends.",
-            "Make the CL file again if its end is missing.";
+            "Export the CL file again if its end is missing.";
         /// Nothing posted.
         NoMotion = 753, Warning, "CL file without records",
             "There is nothing to post.",
             "Check that this is the CL file you meant.";
         /// A dialect was chosen that contradicts the text.
         OtherSigns = 757, Warning, "CL text of another dialect than the one chosen",
-            "A line of the text is written by one CAM system only, and the dialect of another was chosen; tool axes, cycles and texts may mean something else.",
-            "Leave the choice out, or choose the dialect of that system.";
+            "Only one CAM system writes this line, and the dialect of another was chosen; tool axes, cycles and texts may mean something else.",
+            "Choose the dialect of that system, or none.";
     }
 }
 
