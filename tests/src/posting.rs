@@ -6,9 +6,16 @@ use std::io::Cursor;
 
 use fil_nc::verify::Allowed;
 use filpost::listing::Listing;
-use filpost::{Commons, Diag, Error, Event, Program, cl};
+use filpost::{Builder, Commons, Diag, Error, Event, Program, cl, includes};
 
-use crate::back_check;
+use crate::{back_check, root};
+
+/// Adds a script of the papers with this text, and the files that it includes.
+pub fn with_script(builder: Builder, script: &str, text: &str) -> Builder {
+    let path = root().join("fil-scripts/papers").join(script);
+    let name = path.to_string_lossy().into_owned();
+    builder.fil(&name, text).includes(includes::beside(&[path], None))
+}
 
 /// What is posted: a CL text with the machine it is for.
 #[derive(Clone, Debug, Default)]

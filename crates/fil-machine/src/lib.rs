@@ -22,6 +22,7 @@ mod frame_rules;
 mod full_turn;
 pub mod function_code;
 pub mod functions;
+mod in_force;
 pub mod letter;
 pub mod locations;
 pub mod mill_turn;
@@ -44,6 +45,7 @@ pub mod zones;
 
 pub use commons::{Commons, Kind};
 pub use function_code::FunctionCode;
+pub use in_force::in_force;
 pub use letter::{Letter, letters};
 pub use modes::{FeedMode, Plane, Unit};
 

@@ -486,7 +486,12 @@ pub const BUILTINS: &[Builtin] = &[
         "the name of operation n: the first PPRINT before its first motion, OPERATION NAME of CATIA, or TOOL PATH of NX; the empty text where it has none",
     ),
     extension("LASTF", "letter", FunctionKind::LastWritten, "last value written for a letter"),
-    extension("COMF", "'name'", FunctionKind::NamedCommon, "a common location by its name"),
+    extension(
+        "COMF",
+        "'name'",
+        FunctionKind::NamedCommon,
+        "the value in force of a setting, by its name",
+    ),
     extension("SIZEF", "name", FunctionKind::Size, "number of elements of an array or data table"),
     extension(
         "DATA",

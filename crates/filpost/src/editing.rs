@@ -230,7 +230,6 @@ impl Host for WhileWriting<'_> {
     fn trace(&mut self, _: bool) {}
 
     fn named_common(&mut self, name: &str) -> Option<Result<f64>> {
-        let row = fil_machine::locations::Location::named(&name.to_ascii_lowercase())?;
-        Some(self.commons.get(row.kind, u32::from(row.number)))
+        fil_machine::in_force(self.commons, name)
     }
 }

@@ -1,9 +1,9 @@
-//! Grooves cut with a disc into a cylinder whose table leans 45 degrees, read from the NC
+//! Grooves cut with a disc into a cylinder whose table leans, read from the NC
 //! text: where the disc touches the cylinder, and whether its plane holds the groove there.
 //!
-//! Frame of the machine: the cylinder's axis goes through the origin along Y + Z, C turns
-//! it, the disc lies in a plane of X and Y. At C0 the part's +Z points to +X. Lengths are
-//! mm, angles degrees.
+//! Frame of the machine: the cylinder's axis goes through the origin between Y and Z, at the
+//! angle of the table to Y (45 degrees in the paper), C turns it, the disc lies in a plane of X
+//! and Y. At C0 the part's +Z points to +X. Lengths are mm, angles degrees.
 
 use fil_nc::text::read_block;
 use filpost_tests::picture::{Pen, Picture};
@@ -18,6 +18,8 @@ pub struct Cut {
     pub from: [f64; 4],
     /// X, Y, Z and C at the end.
     pub to: [f64; 4],
+    /// Angle at which the table leans.
+    pub lean: f64,
 }
 
 /// A place on the cylinder: angle of the part (degrees), way along its axis, radius.
@@ -31,26 +33,27 @@ pub struct Spot {
     pub radius: f64,
 }
 
-fn axis() -> Vector3<f64> {
-    Vector3::new(0.0, 0.5_f64.sqrt(), 0.5_f64.sqrt())
+fn axis(lean: f64) -> Vector3<f64> {
+    let (sine, cosine) = lean.to_radians().sin_cos();
+    Vector3::new(0.0, cosine, sine)
 }
 
 impl Spot {
-    /// Where the disc at X, Y, Z touches the part turned to C.
-    pub fn of([x, y, z, c]: [f64; 4]) -> Self {
+    /// Where the disc at X, Y, Z touches the part turned to C on a table that leans so.
+    pub fn of([x, y, z, c]: [f64; 4], lean: f64) -> Self {
         let at = Vector3::new(x, y, z);
-        let along = at.dot(&axis());
-        let out = at - axis() * along;
-        let part_x = axis().cross(&Vector3::x());
+        let along = at.dot(&axis(lean));
+        let out = at - axis(lean) * along;
+        let part_x = axis(lean).cross(&Vector3::x());
         let angle = out.dot(&part_x).atan2(out.x).to_degrees() + c;
         Spot { angle: angle - 360.0 * (angle / 360.0).round(), along, radius: out.norm() }
     }
 
     /// The place in the machine while the part stands at C.
-    fn in_machine(&self, c: f64) -> Vector3<f64> {
+    fn in_machine(&self, c: f64, lean: f64) -> Vector3<f64> {
         let (sine, cosine) = (self.angle - c).to_radians().sin_cos();
-        let part_x = axis().cross(&Vector3::x());
-        axis() * self.along + (Vector3::x() * cosine + part_x * sine) * self.radius
+        let part_x = axis(lean).cross(&Vector3::x());
+        axis(lean) * self.along + (Vector3::x() * cosine + part_x * sine) * self.radius
     }
 
     /// The place in the frame of the part.
@@ -63,7 +66,7 @@ impl Spot {
 impl Cut {
     /// The place at a part of the way, 0 to 1.
     pub fn at(&self, part: f64) -> Spot {
-        Spot::of(self.axes(part))
+        Spot::of(self.axes(part), self.lean)
     }
 
     fn axes(&self, part: f64) -> [f64; 4] {
@@ -74,18 +77,19 @@ impl Cut {
     /// places before and behind are looked at with the part standing still.
     pub fn out_of_disc(&self, part: f64) -> f64 {
         let c = self.axes(part)[3];
-        let [before, behind] = [part - 0.001, part + 0.001].map(|at| self.at(at).in_machine(c));
+        let [before, behind] =
+            [part - 0.001, part + 0.001].map(|at| self.at(at).in_machine(c, self.lean));
         let way = behind - before;
         (way.z / way.norm()).abs().asin().to_degrees()
     }
 }
 
-/// The cuts of a program: motions with G01 that turn the part.
+/// The cuts of a program on a table that leans so: motions with G01 in which X stays.
 ///
 /// # Errors
 /// A block that is no block, a motion with G00 closer than `clear` to the axis, or a head that does
 /// not stand upright (A0): its disc would stand across the groove.
-pub fn cuts(nc: &str, clear: f64) -> Result<Vec<Cut>, String> {
+pub fn cuts(nc: &str, clear: f64, lean: f64) -> Result<Vec<Cut>, String> {
     let mut at = [0.0; 4];
     let mut rapid = true;
     let mut found = Vec::new();
@@ -111,8 +115,9 @@ pub fn cuts(nc: &str, clear: f64) -> Result<Vec<Cut>, String> {
         if moves && rapid && !found.is_empty() && at[0].abs().min(from[0].abs()) < clear {
             return Err(format!("line {line}: rapid motion at X {}", at[0]));
         }
-        if moves && !rapid && from[3] != at[3] {
-            found.push(Cut { line, from, to: at });
+        // X may carry the last digit of a coarse CL file.
+        if !rapid && from != at && (from[0] - at[0]).abs() < 0.01 {
+            found.push(Cut { line, from, to: at, lean });
         }
     }
     Ok(found)
@@ -172,7 +177,7 @@ fn from_x(picture: &mut Picture, middle: [f64; 2], radius: f64, cuts: &[Cut]) {
     let [_, y, z, c] = cuts[0].from;
     // The grooves as they stand while the first one begins.
     for cut in cuts {
-        let ends = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| cut.at(part).in_machine(c));
+        let ends = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| cut.at(part).in_machine(c, cut.lean));
         picture.line(&ends.map(|at| place(at.y, at.z)), FIRST);
     }
     picture.line(&[place(y - DISC, z), place(y + DISC, z)], Pen::full("black", 2.5));

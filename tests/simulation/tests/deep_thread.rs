@@ -10,18 +10,34 @@ use filpost_simulation::thread::random::{odd_threads, threads};
 use filpost_simulation::thread::section::{self, Cut};
 use filpost_simulation::thread::{cycles, drawing};
 use filpost_tests::examples::{Block, blocks};
+use filpost_tests::posting::with_script;
 use filpost_tests::root;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
 const SCRIPT: &str = "deep-thread.fil";
 
+/// G76 in one block, as the printed script writes it.
+const ONE_BLOCK: &[&str] = &["thread.cycle=3"];
+
 /// Posts a CL file with scripts of the papers; the NC program, and the messages
 /// of the listing.
 fn post(scripts: &[&str], cl: &str) -> Result<(String, Vec<String>), Error> {
+    post_with(ONE_BLOCK, scripts, cl)
+}
+
+/// The same on a lathe with these settings.
+fn post_with(
+    settings: &[&str],
+    scripts: &[&str],
+    cl: &str,
+) -> Result<(String, Vec<String>), Error> {
     let mut builder = Program::builder().ready("fanuc-lathe");
+    for setting in settings {
+        builder = builder.set(setting);
+    }
     for script in scripts {
-        builder = builder.fil(script, &text_of(script));
+        builder = with_script(builder, script, &text_of(script));
     }
     let mut nc = Vec::new();
     let mut messages = Vec::new();
@@ -108,9 +124,10 @@ fn the_cases_cut_their_profiles() {
     }
 }
 
-/// Runs a property on 400 threads.
+/// Runs a property on 400 threads, or as many as FILPOST_THREADS says; other ones in each run.
 fn for_each(threads: impl Strategy<Value = Thread>, holds: impl Fn(Thread) -> Result<(), String>) {
-    let config = Config { cases: 400, failure_persistence: None, ..Config::default() };
+    let cases = filpost_simulation::jobs("FILPOST_THREADS", 400) as u32;
+    let config = Config { cases, failure_persistence: None, ..Config::default() };
     let result =
         TestRunner::new(config).run(&threads, |thread| holds(thread).map_err(TestCaseError::fail));
     result.unwrap_or_else(|error| panic!("{error}"));
@@ -124,6 +141,46 @@ fn cuts_right(thread: &Thread, nc: &str) -> Result<(), String> {
 #[test]
 fn every_sound_thread_is_cut_to_its_profile() {
     for_each(threads(), |thread| cuts_right(&thread, &written(&thread)));
+}
+
+/// On a control of the other form too; without a least depth, so that the law holds.
+#[test]
+fn every_sound_thread_is_cut_by_g76_in_two_blocks() {
+    for_each(threads(), |thread| {
+        let (nc, _) = post_with(&["thread.least_depth=0"], &[SCRIPT], &thread.cl())
+            .map_err(|error| error.to_string())?;
+        assert!(nc.contains("G76 P010000 Q0 R0"), "{nc}");
+        cuts_right(&thread, &nc)
+    });
+}
+
+/// TRANS, the setting that moves the tape and X as a radius: the same thread elsewhere.
+#[test]
+fn a_thread_follows_what_shifts_the_program() {
+    let thread = worm();
+    let shifted = thread.cl().replacen("THREAD", "TRANS / 0, 0, 100\nTHREAD", 1);
+    let settings = [ONE_BLOCK[0], "output.translate_z=-7"];
+    let (nc, _) = post_with(&settings, &[SCRIPT], &shifted).expect("the thread is posted");
+    let moved = Thread { start: thread.start + 93.0, end: thread.end + 93.0, ..thread.clone() };
+    judge(&moved, &nc).expect("the thread lies there");
+    let settings = [ONE_BLOCK[0], "lathe.diameter=0"];
+    let (nc, _) = post_with(&settings, &[SCRIPT], &thread.cl()).expect("the thread is posted");
+    assert!(nc.contains("X28. Z-80."), "{nc}");
+    for (setting, cl) in [
+        ("scale.z=-1", thread.cl()),
+        ("thread.cycle=1", thread.cl()),
+        (
+            "thread.cycle=3",
+            thread.cl().replacen(
+                "THREAD",
+                "TRANS / -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0\nTHREAD",
+                1,
+            ),
+        ),
+    ] {
+        let error = post_with(&[ONE_BLOCK[0], setting], &[SCRIPT], &cl).expect_err(setting);
+        assert!(error.to_string().contains("E0325"), "{setting}: {error}");
+    }
 }
 
 #[test]
@@ -222,8 +279,8 @@ fn a_changed_script_is_found() {
         ("HDONE = HDONE + KLAY", "HDONE = KLAY"),
         ("LEAD = PTCH*NSTART", "LEAD = PTCH"),
         ("SIGNF(1,ZSTART-ZFAR)", "SIGNF(1,ZFAR-ZSTART)"),
-        ("2*(XCREST+OUTWRD*CLRCE)", "2*(XCREST-OUTWRD*CLRCE)"),
-        ("2*(XCREST-OUTWRD*HDONE)", "2*(XCREST+OUTWRD*HDONE)"),
+        ("XWIDE*(XCREST+OUTWRD*CLRCE)", "XWIDE*(XCREST-OUTWRD*CLRCE)"),
+        ("XWIDE*(XCREST-OUTWRD*HDONE)", "XWIDE*(XCREST+OUTWRD*HDONE)"),
         ("(HEIGHT-HDONE)*TANF(ANGLE/2) - NOSE", "(HEIGHT-HDONE)*TANF(ANGLE) - NOSE"),
         ("(HEIGHT-HDONE)*TANF(ANGLE/2) - NOSE", "HEIGHT*TANF(ANGLE/2) - NOSE"),
         ("TANF(ANGLE/2) - NOSE", "TANF(ANGLE/2) - NOSE/2"),
@@ -240,7 +297,8 @@ fn a_changed_script_is_found() {
         let changed = script.replacen(old, new, 1);
         assert_ne!(changed, script, "{old} is not there");
         let found = [worm(), two_starts()].iter().any(|thread| {
-            let post = Program::builder().ready("fanuc-lathe").fil(SCRIPT, &changed).build();
+            let post = Program::builder().ready("fanuc-lathe").set(ONE_BLOCK[0]);
+            let post = with_script(post, SCRIPT, &changed).build();
             let post = post.as_ref().expect("the script is sound");
             let mut nc = Vec::new();
             let ran = post.run_seekable(Cursor::new(thread.cl().as_bytes()), &mut nc);
@@ -375,13 +433,15 @@ fn bad_input_is_refused_in_clear_words() {
         ("TYPE, 0, 6", "TYPE, 0, 5", "the layers add up to 6, the height is 5"),
         ("TYPE, 0, 6, 40", "TYPE, 0, 6, 140", "profile angle 140: it must be from 0 to 120"),
         ("OUT,", "", "the record lacks OUT or IN"),
-        ("OUT,", "FACE,", "is no word of a deep thread"),
+        ("OUT,", "FACE,", "is no part of this record"),
         ("TIMES, 1", "TIMES, 1.5", "TIMES 1.5 is no whole number 1 to 99"),
         ("OFSETL, 0, 1.2", "OFSETL, 0, 2.5", "a shift of 2.5 leaves a ridge behind a nose of 2.4"),
         ("OFSETL, 0, 1.2", "OFSETL, 3, 1.2", "OFSETL 3: the number must be 0"),
         ("LAYER, 2,2,2,", "", "the record lacks LAYER,k1,k2,"),
         ("LAYER, 2,2,2", "LAYER, 6,0", "a layer of 0 is not above zero"),
-        ("WIDTH, 3", "WIDHT, 3", "is no word of a deep thread"),
+        ("WIDTH, 3", "WIDHT, 3", "the record lacks WIDTH,root"),
+        ("WIDTH, 3", "WIDTH, 3, WIDTH, 2", "WIDTH,root is there twice"),
+        ("TIMES, 1", "TIME, 1", "is no part of this record"),
         ("CUTTER, 2.4", "CUTTER, 3.1", "no pass fits: the tool nose is 3.1 wide, the root 3"),
         (
             "CUTTER, 2.4, 40",

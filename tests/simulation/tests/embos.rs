@@ -6,6 +6,7 @@ use std::fs;
 use filpost::{Error, Program};
 use filpost_simulation::embos::{Cut, Spot, cuts, picture};
 use filpost_simulation::runout::Random;
+use filpost_tests::posting::with_script;
 use filpost_tests::{examples, root};
 use nalgebra::Point3;
 
@@ -36,7 +37,8 @@ fn second() -> (String, String) {
 
 fn post(script: &str, cl: &str) -> Result<String, Error> {
     let machine = text("corpus/papers/embos-grooves/machine.toml");
-    let post = Program::builder().machine("machine.toml", &machine).fil("embos-grid.fil", script);
+    let post = Program::builder().machine("machine.toml", &machine);
+    let post = with_script(post, "embos-grid.fil", script);
     let mut nc = Vec::new();
     post.build()?.run(cl.as_bytes(), &mut nc)?;
     Ok(String::from_utf8(nc).expect("NC is text"))
@@ -57,12 +59,18 @@ fn at_radius(cl: &str, radius: f64) -> Vec<Point3<f64>> {
 
 /// Each cut starts and ends at its points of the CL file, and its groove lies in the disc.
 fn judge(cl: &str, nc: &str, radius: f64) -> Result<Vec<Cut>, String> {
-    judge_digits(cl, nc, radius, 0.0)
+    judge_digits(cl, nc, radius, 0.0, 45.0)
 }
 
-/// The same of a CL file whose last digit is so large, mm.
-fn judge_digits(cl: &str, nc: &str, radius: f64, digit: f64) -> Result<Vec<Cut>, String> {
-    let found = cuts(nc, radius + 1.0)?;
+/// The same of a CL file whose last digit is so large, mm, on a table that leans so, degrees.
+fn judge_digits(
+    cl: &str,
+    nc: &str,
+    radius: f64,
+    digit: f64,
+    lean: f64,
+) -> Result<Vec<Cut>, String> {
+    let found = cuts(nc, radius + 1.0, lean)?;
     let points = at_radius(cl, radius);
     for cut in &found {
         for spot in [cut.at(0.0), cut.at(1.0)] {
@@ -105,63 +113,82 @@ fn the_groups_cross_at_right_angles() {
     }
 }
 
+/// A random grid.
+struct Grid {
+    cl: String,
+    radius: f64,
+    /// Angle at which the table leans, degrees.
+    lean: f64,
+}
+
 /// A grid of a few grooves on a cylinder of any size, for one side, anywhere around it; points with
-/// so many decimals, and axes with eight or as many.
-fn grid(random: &mut Random, side: f64, decimals: usize) -> (String, f64) {
+/// so many decimals, and axes with eight or as many. Every other one names its angle, 0 and 90
+/// among them.
+fn grid(random: &mut Random, side: f64, decimals: usize) -> Grid {
     let whole = |random: &mut Random, from: f64, to: f64| {
         (from + (random.unit() + 1.0) / 2.0 * (to - from)).round()
     };
     let axis = decimals.max(8);
     let radius = whole(random, 15.0, 150.0);
     let group = if side > 0.0 { "EMBOSL" } else { "EMBOSR" };
+    let named = whole(random, -20.0, 110.0).clamp(0.0, 90.0);
+    let (lean, word) = match random.unit() > 0.0 {
+        true => (named, format!(", ATANGL, {named}")),
+        false => (45.0, String::new()),
+    };
+    let (sine, cosine) = lean.to_radians().sin_cos();
     let mut cl =
-        format!("PARTNO / 7\nUNITS / MM\nMULTAX / ON\nFEDRAT / 30, MMPM\nCYCLE / {group}\n");
+        format!("PARTNO / 7\nUNITS / MM\nMULTAX / ON\nFEDRAT / 30, MMPM\nCYCLE / {group}{word}\n");
     for _ in 0..3 {
-        let (mut angle, foot) = (180.0 * random.unit(), 40.0 * random.unit());
+        let (mut angle, mut along) = (180.0 * random.unit(), 140.0 * random.unit());
         let count = whole(random, 2.0, 6.0) as usize;
-        let step = 4.0 + 3.0 * random.unit();
-        let mut point = |rapid: bool, at: f64, angle: f64| {
+        let step = 2.0_f64.sqrt() * (4.0 + 3.0 * random.unit());
+        let mut point = |rapid: bool, at: f64, angle: f64, along: f64| {
             let (sine, cosine) = angle.to_radians().sin_cos();
-            let y = foot + side * radius * angle.to_radians();
             let before = if rapid { "RAPID\n" } else { "" };
             cl += &format!(
-                "{before}GOTO / {:.decimals$}, {y:.decimals$}, {:.decimals$}, {sine:.axis$}, 0.0, \
+                "{before}GOTO / {:.decimals$}, {along:.decimals$}, {:.decimals$}, {sine:.axis$}, 0.0, \
                  {cosine:.axis$}\n",
                 at * sine,
                 at * cosine
             );
         };
-        point(true, radius + 20.0, angle);
-        point(true, radius + 2.0, angle);
-        point(false, radius, angle);
+        point(true, radius + 20.0, angle, along);
+        point(true, radius + 2.0, angle, along);
+        point(false, radius, angle, along);
         for _ in 0..count {
-            angle += step;
-            point(false, radius, angle);
+            angle += step * sine;
+            along += side * radius * (step * cosine).to_radians();
+            point(false, radius, angle, along);
         }
-        point(false, radius + 20.0, angle);
+        point(false, radius + 20.0, angle, along);
     }
-    (cl + "CYCLE / OFF\nFINI\n", radius)
+    Grid { cl: cl + "CYCLE / OFF\nFINI\n", radius, lean }
 }
 
 #[test]
 fn random_grids_lie_in_the_plane_of_the_disc() {
-    let mut random = Random(5);
-    let grids = std::env::var("FILPOST_EMBOS_GRIDS").map_or(GRIDS, |count| {
-        count.parse().expect("FILPOST_EMBOS_GRIDS is how many grids are posted")
-    });
+    let mut random = Random(filpost_simulation::seed(5));
+    let grids = filpost_simulation::jobs("FILPOST_EMBOS_GRIDS", GRIDS);
     for index in 0..grids {
         let side = if index % 2 == 0 { 1.0 } else { -1.0 };
         let decimals = 3 + index / 2 % 8;
-        let (cl, radius) = grid(&mut random, side, decimals);
+        let Grid { cl, radius, lean } = grid(&mut random, side, decimals);
         let digit = 10.0_f64.powi(-(decimals as i32));
         let nc = post(&script(), &cl).unwrap_or_else(|error| panic!("{index}: {error}\n{cl}"));
-        let found = judge_digits(&cl, &nc, radius, digit)
-            .unwrap_or_else(|fault| panic!("{index}: {fault}\n{nc}"));
+        let found = judge_digits(&cl, &nc, radius, digit, lean)
+            .unwrap_or_else(|fault| panic!("{index}: {fault}\n{cl}{nc}"));
         assert!(found.len() >= 6, "{index}: {nc}");
-        let turned =
-            cl.replace("EMBOSL", "EMBOSX").replace("EMBOSR", "EMBOSL").replace("EMBOSX", "EMBOSR");
-        assert!(post(&script(), &turned).is_err(), "{index}: the other side jams the disc");
+        // Along the cylinder and round it both sides are alike.
+        if (3.0..=87.0).contains(&lean) {
+            let turned = cl
+                .replace("EMBOSL", "EMBOSX")
+                .replace("EMBOSR", "EMBOSL")
+                .replace("EMBOSX", "EMBOSR");
+            assert!(post(&script(), &turned).is_err(), "{index}: the other side jams the disc");
+        }
     }
+    println!("grids of grooves: {grids} posted, each cut lies in the plane of the disc");
 }
 
 /// A head whose travel allows it turned over is refused: it would reach the same tool axis with its
@@ -172,8 +199,8 @@ fn a_head_that_can_turn_over_is_refused() {
     let (cl, nc) = first();
     let run = |machine: &str| {
         let script = script();
-        let post =
-            Program::builder().machine("machine.toml", machine).fil("embos-grid.fil", &script);
+        let post = Program::builder().machine("machine.toml", machine);
+        let post = with_script(post, "embos-grid.fil", &script);
         let mut nc = Vec::new();
         post.build().and_then(|post| post.run(cl.as_bytes(), &mut nc)).map(|_| nc)
     };
@@ -198,9 +225,9 @@ fn changes_of_the_script_are_found() {
         ("TRANS/0,0,-1,0,0,1,0,0,1,0,0,0", "TRANS/0,0,1,0,0,1,0,0,-1,0,0,0"),
         ("POSTF(2,3,780,EMCTR+180)", "POSTF(2,3,780,EMCTR)"),
         ("POSTF(2,3,780,EMCTR+180)", "POSTF(2,3,780,EMCTR+90)"),
-        ("POSTF(2,3,487,1/SQRTF(2))", "POSTF(2,3,487,1)"),
-        ("EMZVAL = EMY/SQRTF(2)", "EMZVAL = EMY"),
-        ("EMZVAL = EMY/SQRTF(2)", "EMZVAL = -EMY/SQRTF(2)"),
+        ("POSTF(2,3,487,EMCOS)", "POSTF(2,3,487,1)"),
+        ("EMZVAL = EMY*EMSIN", "EMZVAL = EMY"),
+        ("EMZVAL = EMY*EMSIN", "EMZVAL = -EMY*EMSIN"),
         ("  REPEAT/Z,EMZVAL\n", ""),
     ] {
         let changed = script().replace(from, to);

@@ -9,6 +9,7 @@ mod refused;
 
 use filpost::{Diag, Error, Program};
 use filpost_tests::feed::Point;
+use filpost_tests::posting::with_script;
 use filpost_tests::root;
 
 const CASE: &str = "corpus/papers/feed-control-l400";
@@ -28,7 +29,8 @@ fn post(script: Option<&str>, cl: &str) -> Result<(String, Vec<Diag>), Error> {
     let machine = read(&format!("{CASE}/machine.toml"));
     let mut builder = Program::builder().machine("machine.toml", &machine);
     if let Some(script) = script {
-        builder = builder.fil(script, &read(&format!("fil-scripts/papers/{script}")));
+        let text = read(&format!("fil-scripts/papers/{script}"));
+        builder = with_script(builder, script, &text);
     }
     let post = builder.build()?;
     let mut nc = Vec::new();

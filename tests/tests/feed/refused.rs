@@ -49,8 +49,21 @@ fn records_the_pass_needs() {
     let speed = "NO SPINDL/RPM BEFORE FEDCTL/ON: THE FEED FOLLOWS THE SPEED";
     both_refuse("SPINDL / RPM, 1000.000000, CLW\n", "", speed, "FEDCTL");
     both_refuse("FEDCTL / OFF\n", "", "FEDCTL/ON HAS NO FEDCTL/OFF", "FINI");
-    let inches = "THE FORMULAS OF THE PAPER ARE FOR MILLIMETRES";
-    both_refuse("UNITS / MM", "UNITS / INCHES", inches, "UNITS");
+    let inches = "FEDCTL counts in mm, this CL file in inches";
+    both_refuse("UNITS / MM", "UNITS / INCHES", inches, "FEDCTL");
+    let item = "FEDCTL: item 4 is no part of this record";
+    both_refuse(ON, "FEDCTL / ON, RADIUS, 5, STOK, 0.25", item, "FEDCTL");
+    let twice = "FEDCTL: RADIUS,R is there twice";
+    both_refuse(ON, "FEDCTL / ON, RADIUS, 5, STOCK, 0.25, RADIUS, 6", twice, "FEDCTL");
+    let turned = "FEDCTL: the TRANS that is on turns or scales the points";
+    both_refuse(
+        "FEDCTL / ON",
+        "TRANS / -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0\nFEDCTL / ON",
+        turned,
+        "FEDCTL",
+    );
+    let held = "FEDCTL is on: TRANS would move half of it";
+    both_refuse("GOTO / 9.0000", "TRANS / 0, 0, 5\nGOTO / 9.0000", held, "TRANS");
     let rapid = "A PASS BEGINS WITH A RAPID MOVE TO ITS FIRST POINT";
     both_refuse("STOCK, 0.250000\nRAPID\n", "STOCK, 0.25\n", rapid, "CL line 8:");
     let (found, _) = refusal("feed-ahead.fil", &changed("FEDRAT / 5.000000, MMPM\n", ""));

@@ -220,8 +220,8 @@ fn common(state: &DebugState<'_, '_>, kind: f64, location: f64) -> Result<Held> 
 }
 
 fn common_named(state: &DebugState<'_, '_>, name: &str) -> Result<Held> {
-    match fil_machine::locations::Location::named(&name.to_ascii_lowercase()) {
-        Some(row) => state.commons().get(row.kind, u32::from(row.number)).map(Held::Number),
+    match fil_machine::in_force(state.commons(), name) {
+        Some(value) => value.map(Held::Number),
         None => refuse(&format!("no common is named '{name}'")),
     }
 }

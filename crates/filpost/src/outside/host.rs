@@ -175,8 +175,7 @@ impl Host for Outside<'_, '_> {
     }
 
     fn named_common(&mut self, name: &str) -> Option<Result<f64, Box<Diag>>> {
-        let row = fil_machine::locations::Location::named(&name.to_ascii_lowercase())?;
-        Some(self.post.control.commons.get(row.kind, u32::from(row.number)))
+        fil_machine::in_force(&self.post.control.commons, name)
     }
 }
 

@@ -1,8 +1,9 @@
-//! Thread passes of an NC program for a Fanuc lathe: G76 in one line and G92.
+//! Thread passes of an NC program for a Fanuc lathe: G76 in one block or in two, and G92.
 //!
 //! Read from the text alone. X is a diameter. `G76 X Z K D I A F` cuts to the
 //! diameter X in passes whose depths below the crest, K above X, are D*sqrt(i),
-//! the last one K; `G92 X Z I F` is one pass. Both begin where the tool stands,
+//! the last one K. In two blocks, `G76 P010000 Q R0` and `G76 X Z P Q F`, height and depth are
+//! P and Q in thousandths, and a pass adds at least the first Q. `G92 X Z I F` is one pass. Both begin where the tool stands,
 //! feed with F a turn to Z and come back to where they began.
 
 use std::collections::BTreeMap;
@@ -69,6 +70,8 @@ struct Reader {
     z: Option<f64>,
     /// Rapid motion is on.
     rapid: bool,
+    /// What the first block of G76 has said: a pass adds at least this.
+    least: Option<f64>,
 }
 
 impl Reader {
@@ -98,18 +101,33 @@ impl Reader {
     }
 
     fn g76(&mut self, line: usize, block: &Block) -> Result<(), String> {
-        if block.get('A')? != 0.0 {
+        if !block.value.contains_key(&'X') {
+            // One pass at full depth, no chamfer, straight in, no allowance.
+            if block.get('P')? != 10_000.0 || block.get('R')? != 0.0 {
+                return Err("the first block of G76 asks for more than plain passes".to_string());
+            }
+            self.least = Some(block.get('Q')? / 1000.0);
+            return Ok(());
+        }
+        let in_two = self.least.take();
+        if in_two.is_none() && block.get('A')? != 0.0 {
             return Err("G76 with an infeed along the flank: where its groove lies is not known"
                 .to_string());
         }
-        let (height, first) = (block.get('K')?, block.get('D')?);
+        let (height, first) = match in_two {
+            Some(_) => (block.get('P')? / 1000.0, block.get('Q')? / 1000.0),
+            None => (block.get('K')?, block.get('D')?),
+        };
         if height <= 0.0 || first <= 0.0 {
             return Err("G76 without K or D".to_string());
         }
         let last = self.pass(line, Cycle::G76(0), block)?;
         let side = (self.x.unwrap_or(0.0) / 2.0 - last.radius).signum();
+        let mut before = 0.0;
         for number in 1..=MOST {
-            let depth = (first * f64::from(number).sqrt()).min(height);
+            let law = first * f64::from(number).sqrt();
+            let depth = law.max(before + in_two.unwrap_or(0.0)).min(height);
+            before = depth;
             let radius = last.radius + side * (height - depth);
             self.program.passes.push(Pass { cycle: Cycle::G76(number), radius, ..last });
             if depth > height - 1e-6 {
@@ -127,7 +145,7 @@ impl Reader {
 
     /// The pass along the floor of a cycle.
     fn pass(&self, line: usize, cycle: Cycle, block: &Block) -> Result<Pass, String> {
-        if block.get('I')? != 0.0 {
+        if block.value.get(&'I').is_some_and(|cone| *cone != 0.0) {
             return Err("a cone".to_string());
         }
         let (Some(_), Some(start)) = (self.x, self.z) else {
@@ -185,6 +203,16 @@ mod tests {
         }
         assert!(program.passes.iter().all(|pass| (pass.start, pass.lead) == (5.0, 2.0)));
         assert_eq!(program.rapids, [(3, 22.0, 5.0)]);
+    }
+
+    /// The law asks for 0.3, 0.424 and 0.52, the least of 0.2 for 0.3, 0.5 and 0.7.
+    #[test]
+    fn g76_in_two_blocks_adds_at_least_its_first_q() {
+        let nc = "G0 X44. Z5.\nG76 P010000 Q200 R0\nG76 X38.6 Z-30. P700 Q300 F2.";
+        let radii: Vec<f64> = read(nc).unwrap().passes.iter().map(|pass| pass.radius).collect();
+        let wanted = [19.7, 19.5, 19.3];
+        assert_eq!(radii.len(), wanted.len(), "{radii:?}");
+        assert!(radii.iter().zip(wanted).all(|(radius, wanted)| (radius - wanted).abs() < 1e-9));
     }
 
     #[test]

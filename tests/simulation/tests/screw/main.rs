@@ -287,3 +287,52 @@ fn each_change_of_a_program_is_found() {
     let page = std::fs::read_to_string(root().join("docs/papers/screw.md")).expect("the page");
     assert!(page.contains(&format!("{count} changes of")), "{count} changes, all found");
 }
+
+/// The passes of a program: place along the screw, distance from its axis and turn, for each
+/// block that moves one of them after the first feed in inverse time.
+fn passes_of(nc: &str, [along, out, table]: [char; 3], axis_at: f64, sense: f64) -> Vec<[f64; 3]> {
+    let mut at = [0.0; 3];
+    let mut found = Vec::new();
+    for line in nc.lines().skip_while(|line| !line.ends_with("G93")) {
+        let mut moves = false;
+        for word in line.split(' ').filter(|word| word.len() > 1) {
+            let (letter, number) = word.split_at(1);
+            let Ok(value) = number.parse::<f64>() else { continue };
+            let value = match letter.chars().next() {
+                Some(letter) if letter == along => (0, value),
+                Some(letter) if letter == out => (1, value - axis_at),
+                Some(letter) if letter == table => (2, sense * value),
+                _ => continue,
+            };
+            at[value.0] = value.1;
+            moves = true;
+        }
+        if moves {
+            found.push(at);
+        }
+    }
+    found
+}
+
+/// The linear transformation to other machines of four axes: a table B about Y, and a table C that
+/// turns about -Z through X100 Y50 with the tool along X.
+#[test]
+fn other_machines_make_the_same_passes() {
+    let program = |case: &str| {
+        let path = root().join("corpus/papers").join(case).join("screw.nc");
+        files::read_text(&path, None).expect("a case of the corpus")
+    };
+    let passes = passes_of(&program("screw-trapezoid"), ['X', 'Z', 'A'], 0.0, 1.0);
+    assert!(passes.len() >= 80, "{}", passes.len());
+    for (case, letters, axis_at, sense) in [
+        ("screw-table-b", ['Y', 'Z', 'B'], 0.0, 1.0),
+        ("screw-table-c", ['Z', 'X', 'C'], 100.0, -1.0),
+    ] {
+        let found = passes_of(&program(case), letters, axis_at, sense);
+        assert_eq!(found.len(), passes.len(), "{case}");
+        for (found, wanted) in found.iter().zip(&passes) {
+            let apart = (0..3).map(|axis| (found[axis] - wanted[axis]).abs()).fold(0.0, f64::max);
+            assert!(apart < 0.0011, "{case}: {found:?}, not {wanted:?}");
+        }
+    }
+}
