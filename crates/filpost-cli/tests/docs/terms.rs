@@ -33,7 +33,7 @@ const RIGHT: &[(&str, &str)] = &[("docs/glossary.md", "second spindle")];
 
 /// Pages of other sources: tables of the code, the history, what files print.
 fn pages() -> Vec<(String, String)> {
-    let mut names = vec!["README.md".to_string(), "CHANGELOG.md".to_string()];
+    let mut names = vec!["README.md".to_string()];
     for folder in ["docs", "docs/papers", "docs/editors", "docs/howto"] {
         let entries = std::fs::read_dir(root().join(folder)).expect("a folder of pages");
         let files = entries.flatten().map(|entry| entry.file_name().display().to_string());
