@@ -23,8 +23,6 @@ const OLD_TERMS: &[(&str, &str)] = &[
     ("rapid that bends", "dog-leg rapid"),
     ("on the tape", "in the program"),
     ("of its own accord", "by itself"),
-    ("behind", "after"),
-    ("whoever", "anyone who"),
     ("hangs on", "depends on"),
 ];
 
