@@ -43,6 +43,8 @@ impl Post {
         let part = Part {
             in_cycle: self.path.cycle.is_some(),
             in_thread: self.path.thread.passes.is_some(),
+            in_arc: self.path.arc.is_some(),
+            awaits_points: self.path.thread.awaited.as_ref().is_some_and(|it| !it.is_cut),
         };
         self.control.require_within(act, part)
     }

@@ -4,10 +4,9 @@
 use fil_diag::Result;
 use fil_machine::Letter;
 use fil_machine::letters::{self, G, M};
-use fil_machine::locations::ControlFamily;
 
 use super::left_out::{Edit, Maker, Word};
-use super::{Control, sinumerik, speed_of_others, texts};
+use super::{Control, speed_of_others, texts};
 use crate::cause::Cause;
 use crate::control::needs::Act;
 use crate::control_state::ForeignBlock;
@@ -29,8 +28,7 @@ impl Control {
         let style = &self.tables.style;
         let edits_words = style.edits_words;
         let edits_lines = style.edits_lines || !self.tape.replaced.is_empty();
-        let family = self.tables.family;
-        self.straight = !edits_words && !edits_lines && family == ControlFamily::WordAddress;
+        self.straight = !edits_words && !edits_lines && self.can().plain_words;
         if self.straight {
             return self.write_block();
         }
@@ -38,8 +36,8 @@ impl Control {
             self.require_unit()?;
         }
         self.require(Act::Block)?;
-        if family == ControlFamily::Klartext {
-            return super::klartext::phrase::write(self);
+        if !self.can().edits_lines {
+            return self.family().put_block(self);
         }
         if edits_words {
             let words = self.block.words(&self.tables.addresses);
@@ -51,11 +49,7 @@ impl Control {
             return self.write_apart();
         }
         let start = self.tape.text.len();
-        if family == ControlFamily::Sinumerik {
-            sinumerik::block::write(self)?;
-        } else {
-            self.tape.block(&self.block, &self.tables, &mut self.commons)?;
-        }
+        self.family().put_block(self)?;
         if edits_lines && self.edit_line(start, Maker::Post)? {
             self.block.clear();
             return Ok(());
@@ -147,7 +141,8 @@ impl Control {
             texts::check(&after)?;
         }
         let [made, left] = [&before, &after].map(|line| self.read(line.clone()));
-        let [of_made, mut of_left] = [&made, &left].map(|block| self.readable_words(block));
+        let [of_made, mut of_left] =
+            [&made, &left].map(|block| self.family().readable_words(block));
         if left.skipped && !made.skipped {
             // Nothing is left for certain.
             of_left.clear();
@@ -174,14 +169,6 @@ impl Control {
         Ok(true)
     }
 
-    /// The words of a line as far as they can be read.
-    fn readable_words(&self, block: &ForeignBlock) -> Vec<Word> {
-        match self.tables.family {
-            ControlFamily::Sinumerik => sinumerik::reader::readable_words(block),
-            _ => block.words.clone(),
-        }
-    }
-
     /// Has the macro _MCDWT edit a line.
     fn edit_by_macro(&mut self, line: &mut String) -> Result<()> {
         let Some(editor) = &mut self.tape.editor.0 else {
@@ -201,7 +188,7 @@ impl Control {
     /// tape as they were made; what else the line says is in doubt.
     fn learn_edited(&mut self, before: &ForeignBlock, after: &ForeignBlock, maker: Maker) {
         let is_read = before.unread.is_none() && after.unread.is_none() && !after.skipped;
-        if self.tables.family == ControlFamily::Sinumerik || !is_read {
+        if self.can().reads_edited_lines || !is_read {
             return self.learn(after);
         }
         let (old, new) = (&before.words, &after.words);

@@ -1,309 +1,489 @@
-//! What the passes ask of a control, by its family: each function hands the operation
-//! to the one that the machine's `control.family` names.
+//! What the passes ask of a control, whatever its language: one trait, which each family of controls
+//! implements in its folder, and a plain table of what the families have ([`super::families`]).
 
 use fil_diag::Result;
-use fil_machine::FunctionCode;
-use fil_machine::locations::{ControlFamily, ThreadCycle};
+use fil_machine::locations::ThreadCycle;
 use fil_machine::modes::Plane;
+use fil_machine::{FunctionCode, Letter};
 use nalgebra::Rotation3;
 
-use super::word_address::motion as words;
-use super::{
-    Control, departure, klartext, length_plane, sinumerik, straight_rapid, vectors, word_address,
-};
+use super::word_address::{arc, motion as words};
+use super::{Control, departure, straight_rapid, vectors};
 use crate::cause::Cause;
-use crate::control_state::modal;
+use crate::control_state::{ForeignBlock, modal};
 use crate::errors::PostCode;
 use crate::operation::cycle::{Cycle, Hole};
 use crate::operation::motion::{Motion, PlaneArc, RapidCode};
 use crate::operation::thread_shape::{Ends, Shape};
-use crate::operation::{Dwell, Feed, Lead, Operation, Thread, ToolChange};
+use crate::operation::{Feed, Lead, Operation, Thread, ToolChange};
 
-/// Refuses what the control's language has no word for.
-///
-/// # Errors
-/// Always.
-pub fn refuse<T>(message: impl Into<String>) -> Result<T> {
-    PostCode::Family.err(message)
+/// What the language of a family has.
+#[derive(Debug)]
+pub struct Capabilities {
+    /// A block is its words in tape order, and nothing else.
+    pub plain_words: bool,
+    /// Lines are edited by macros and REPLAC; else the language has lines of its own.
+    pub edits_lines: bool,
+    /// The control numbers the lines, and no word does.
+    pub numbers_lines: bool,
+    /// `(TEXT)` is a comment; else `; TEXT` is one.
+    pub brackets_are_comments: bool,
+    /// Lengths of tools count along the axes of the plane in force.
+    pub lengths_by_plane: bool,
+    /// Functions with a number take up the length of a tool, in tool center point control too, and
+    /// others take it off (G43, G43.4, G49): the control counts without it then.
+    pub length_functions: bool,
+    /// D chooses a cutting edge with its length and radius.
+    pub cutting_edges: bool,
+    /// A statement calls a cycle at each position (MCALL), and another ends it.
+    pub cycle_calls: bool,
+    /// Each cycle says the level to which it returns.
+    pub cycles_say_return: bool,
+    /// Statements, and not functions, choose spindles and the modes of a mill-turn machine.
+    pub mode_statements: bool,
+    /// Constant surface speed and turns a minute (G96, G97) are modes of the feed too.
+    pub speed_modes_say_feed: bool,
+    /// A statement says that X is a diameter.
+    pub diameter_statement: bool,
+    /// M140 goes away from the part.
+    pub retract_function: bool,
+    /// The word of a rotary axis spells the way to its position (`ACP`, `ACN`, `DC`).
+    pub spells_way_round: bool,
+    /// Rotary axes take angles beside the direction of the tool as a vector.
+    pub angles_beside_vectors: bool,
+    /// Rapid motions go on a straight line, unless the machine says otherwise.
+    pub straight_rapids: bool,
+    /// What a foreign block changes that can be skipped is unknown from its reading on.
+    pub skipped_is_unknown: bool,
+    /// An edited line is read anew as a whole.
+    pub reads_edited_lines: bool,
 }
 
-/// Writes an operation that does not depend on the path.
-///
-/// # Errors
-/// A code the machine lacks, a value that does not fit, an operation at a wrong
-/// moment, what the control's language can't say.
-pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
-    match control.tables.family {
-        ControlFamily::WordAddress => word_address::write(control, operation),
-        ControlFamily::Klartext => klartext::write(control, operation),
-        ControlFamily::Sinumerik => sinumerik::write(control, operation),
+/// A family of controls: what its language has, and what writes it.
+#[derive(Debug)]
+pub struct Row {
+    /// What its language has.
+    pub can: Capabilities,
+    /// What writes it.
+    pub writer: &'static dyn Family,
+}
+
+/// What each family of controls writes in its own way. Unless a family says otherwise motions are
+/// blocks of words, and what most languages lack does nothing.
+pub trait Family: std::fmt::Debug + Sync {
+    /// Writes an operation that does not depend on the path.
+    ///
+    /// # Errors
+    /// A code the machine lacks, a value that does not fit, an operation at a wrong moment, what
+    /// the language can't say.
+    fn write(&self, control: &mut Control, operation: Operation) -> Result<()>;
+
+    /// Writes a rapid motion in one block.
+    ///
+    /// # Errors
+    /// A value that does not fit, a missing code, a position outside the travel.
+    fn rapid(
+        &self,
+        control: &mut Control,
+        motion: &Motion,
+        code: RapidCode,
+        cause: Cause,
+    ) -> Result<()> {
+        words::rapid(control, motion, code, cause)
+    }
+
+    /// Writes a feed motion in one block.
+    ///
+    /// # Errors
+    /// As [`Family::rapid`]; no feed.
+    fn feed(&self, control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Result<()> {
+        words::feed(control, motion, feed)
+    }
+
+    /// Writes one pass of a thread, whose lead gains so much in each turn.
+    ///
+    /// # Errors
+    /// As [`Family::rapid`]; the machine has no thread code.
+    fn thread(
+        &self,
+        control: &mut Control,
+        motion: &Motion,
+        lead: &Lead,
+        change: f64,
+    ) -> Result<()>;
+
+    /// True when the language has a cycle for whole threads.
+    fn has_thread_cycle(&self, cycle: ThreadCycle) -> bool;
+
+    /// Writes the cycle of one start of a whole thread, from where the tool stands clear; of a
+    /// cycle of one pass what comes before its passes.
+    ///
+    /// # Errors
+    /// A value that does not fit.
+    fn thread_cycle(
+        &self,
+        control: &mut Control,
+        thread: &Thread,
+        shape: &Shape,
+        cycle: ThreadCycle,
+        ends: &Ends,
+    ) -> Result<()>;
+
+    /// Begins tool center point control, with the length offset of the tool.
+    ///
+    /// # Errors
+    /// The machine has no code for it.
+    fn begin_tip_control(&self, control: &mut Control, offset: Option<(i64, Cause)>) -> Result<()>;
+
+    /// Ends tool center point control.
+    ///
+    /// # Errors
+    /// As [`Family::begin_tip_control`].
+    fn end_tip_control(&self, control: &mut Control) -> Result<()>;
+
+    /// Begins a tilted work plane in which the rotary axes stand, at the higher of two positions of
+    /// the machine's reference axis or at the lower one; says how it lies on the tape.
+    ///
+    /// # Errors
+    /// The machine has no code for it; angles that can't be said.
+    fn begin_frame(
+        &self,
+        control: &mut Control,
+        turn: &Rotation3<f64>,
+        higher: [bool; 2],
+    ) -> Result<Rotation3<f64>>;
+
+    /// Ends a tilted work plane.
+    ///
+    /// # Errors
+    /// As [`Family::begin_frame`].
+    fn end_frame(&self, control: &mut Control) -> Result<()>;
+
+    /// Brings the control into the modes a motion counts on.
+    ///
+    /// # Errors
+    /// A mode that can't be said again.
+    fn ready(&self, control: &mut Control) -> Result<()> {
+        words::ready(control)
+    }
+
+    /// The same for an arc in a plane.
+    ///
+    /// # Errors
+    /// As [`Family::ready`].
+    fn ready_for_arc(&self, control: &mut Control, plane: Plane) -> Result<()> {
+        words::ready_for_arc(control, plane)
+    }
+
+    /// The same for a hole: the control may be in the cycle that drills it.
+    ///
+    /// # Errors
+    /// As [`Family::ready`].
+    fn ready_for_hole(&self, control: &mut Control, in_cycle: bool) -> Result<()> {
+        words::ready_for_hole(control, in_cycle)
+    }
+
+    /// True when the control has arcs and helices in a plane, and counts the length of the tool
+    /// along it there.
+    fn has_arc(&self, control: &Control, plane: Plane) -> bool;
+
+    /// True when the control reads an arc from its rounded words as it is meant.
+    ///
+    /// # Errors
+    /// A position that does not fit its address.
+    fn reads_as_meant(&self, control: &Control, arc: &PlaneArc) -> Result<bool> {
+        arc::reads_as_meant(control, arc)
+    }
+
+    /// Where an arc ends for the control whose end the tape says is `on_tape`.
+    ///
+    /// # Errors
+    /// A position that does not fit its address.
+    fn end_of_arc(
+        &self,
+        _control: &Control,
+        _arc: &PlaneArc,
+        on_tape: [f64; 2],
+    ) -> Result<[f64; 2]> {
+        Ok(on_tape)
+    }
+
+    /// Writes the block of an arc.
+    ///
+    /// # Errors
+    /// A code the machine lacks, a value that does not fit, no feed.
+    fn arc(&self, control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result<()>;
+
+    /// The code or number of a cycle; `None` where the control has none that does all of it, so
+    /// that it must be written as single moves.
+    fn cycle_code(&self, control: &Control, cycle: &Cycle) -> Option<FunctionCode>;
+
+    /// True when a cycle of the control drills a hole that lies like this one.
+    fn drills(&self, control: &Control, hole: &Hole) -> bool;
+
+    /// Writes the block of a hole.
+    ///
+    /// # Errors
+    /// A value that does not fit.
+    fn hole(
+        &self,
+        control: &mut Control,
+        cycle: &Cycle,
+        code: FunctionCode,
+        at: &Motion,
+        hole: &Hole,
+    ) -> Result<()>;
+
+    /// Says that no cycle is in force.
+    ///
+    /// # Errors
+    /// The machine has no such code.
+    fn leave_cycle(&self, control: &mut Control) -> Result<()>;
+
+    /// Leaves the offset of a tool out where the tool brings its length with it.
+    ///
+    /// # Errors
+    /// An offset that the control can't take.
+    fn take_own_offset(&self, _control: &mut Control, _wanted: &mut ToolChange) -> Result<()> {
+        Ok(())
+    }
+
+    /// The number that is in force with a tool: its length offset, or its cutting edge.
+    fn offset_of(&self, wanted: &ToolChange) -> i64 {
+        wanted.offset
+    }
+
+    /// Changes the tool.
+    ///
+    /// # Errors
+    /// A tool or offset that does not fit, an offset the machine can't call.
+    fn change_tool(&self, control: &mut Control, change: ToolChange) -> Result<()>;
+
+    /// Writes the block under construction, whose words say a position of the machine, as a rapid
+    /// motion to it.
+    ///
+    /// # Errors
+    /// A code the machine lacks.
+    fn to_machine_position(&self, control: &mut Control) -> Result<()>;
+
+    /// Reads a foreign block.
+    fn read(&self, control: &Control, text: &str) -> ForeignBlock;
+
+    /// What a foreign block leaves unknown that can't be read.
+    fn forget(&self, control: &mut Control);
+
+    /// Learns from words of a foreign block what no other family does.
+    fn learn_words(&self, _control: &mut Control, _words: &[(Letter, f64)]) {}
+
+    /// The words of a line as far as they can be read.
+    fn readable_words(&self, block: &ForeignBlock) -> Vec<(Letter, f64)> {
+        block.words.clone()
+    }
+
+    /// Refuses a foreign block that the language would read otherwise than the post.
+    ///
+    /// # Errors
+    /// It is one.
+    fn check_text(&self, _control: &Control, _block: &ForeignBlock) -> Result<()> {
+        Ok(())
+    }
+
+    /// Puts the block under construction on the tape.
+    ///
+    /// # Errors
+    /// As the tape.
+    fn put_block(&self, control: &mut Control) -> Result<()> {
+        control.tape.block(&control.block, &control.tables, &mut control.commons)
+    }
+
+    /// Puts words on the tape in the order given.
+    ///
+    /// # Errors
+    /// As the tape.
+    fn put_words(&self, control: &mut Control, words: &[(Letter, f64, Cause)]) -> Result<()> {
+        control.tape.words(words, &control.tables, &mut control.commons)
+    }
+
+    /// Puts a text on the tape as a line, with a number or without.
+    ///
+    /// # Errors
+    /// As the tape.
+    fn put_text(&self, control: &mut Control, text: &str, numbered: bool) -> Result<()> {
+        let cause = control.block.cause;
+        control.tape.line(text, cause, numbered, &control.tables, &mut control.commons)
+    }
+
+    /// Writes the whole start of a program with the blocks of the machine; false where the usual
+    /// one is to be written.
+    ///
+    /// # Errors
+    /// As a line of the tape.
+    fn start(&self, _control: &mut Control, _blocks: &[String]) -> Result<bool> {
+        Ok(false)
+    }
+
+    /// Writes what comes before the name of the program.
+    ///
+    /// # Errors
+    /// As a line of the tape.
+    fn head(&self, _control: &mut Control) -> Result<()> {
+        Ok(())
+    }
+
+    /// Says behind the start of the program how X counts.
+    ///
+    /// # Errors
+    /// As a line of the tape.
+    fn begin_diameters(&self, _control: &mut Control) -> Result<()> {
+        Ok(())
+    }
+
+    /// Says again how X counts; false where a code says it.
+    ///
+    /// # Errors
+    /// As a line of the tape.
+    fn says_diameters(&self, _control: &mut Control) -> Result<bool> {
+        Ok(false)
+    }
+
+    /// Ends the text of the program; false where the tape does.
+    ///
+    /// # Errors
+    /// As a line of the tape.
+    fn close(&self, _control: &mut Control) -> Result<bool> {
+        Ok(false)
+    }
+
+    /// Prepares the begin or the end of blocks that can be skipped.
+    ///
+    /// # Errors
+    /// What the language can't keep on both sides.
+    fn skip(&self, _control: &mut Control, _on: bool) -> Result<()> {
+        Ok(())
+    }
+
+    /// Refuses what waits for a motion and can't be written without one.
+    ///
+    /// # Errors
+    /// It waits.
+    fn refuse_unbegun(&self, _control: &Control) -> Result<()> {
+        Ok(())
+    }
+
+    /// Writes the highest speed of the spindle by a statement; false where a code says it.
+    ///
+    /// # Errors
+    /// As a line of the tape.
+    fn says_limit(&self, _control: &mut Control, _limit: f64) -> Result<bool> {
+        Ok(false)
+    }
+
+    /// Makes the second spindle of a lathe the one that is counted, or the main one again.
+    ///
+    /// # Errors
+    /// The language has no statement for it.
+    fn choose_master(&self, _control: &mut Control, _number: i32, _is_side: bool) -> Result<()> {
+        PostCode::Family.err("no statement chooses the spindle that is counted")
+    }
+
+    /// The spindle counts turns again, by a code that was written alone.
+    fn counts_turns(&self, _control: &mut Control) {}
+
+    /// A mode of the speed says the mode of the feed too.
+    ///
+    /// # Errors
+    /// The mode of the speed is in doubt.
+    fn says_feed_mode(&self, _control: &mut Control, _feed: &Feed) -> Result<bool> {
+        Ok(false)
+    }
+}
+
+impl Control {
+    /// What the language of the control has.
+    #[inline]
+    pub fn can(&self) -> &'static Capabilities {
+        &self.family.can
+    }
+
+    /// What writes the language of the control.
+    #[inline]
+    pub fn family(&self) -> &'static dyn Family {
+        self.family.writer
     }
 }
 
 /// Writes a rapid motion in one block.
 ///
 /// # Errors
-/// As [`words::rapid`].
+/// As [`Family::rapid`].
 pub fn rapid(control: &mut Control, motion: &Motion, code: RapidCode, cause: Cause) -> Result<()> {
     departure::refuse(control, motion, "a rapid motion")?;
     straight_rapid::look(control, motion)?;
-    match control.tables.family {
-        ControlFamily::Klartext => klartext::motion::rapid(control, motion),
-        _ => words::rapid(control, motion, code, cause),
-    }
+    control.family().rapid(control, motion, code, cause)
 }
 
 /// Writes a feed motion in one block, or in several where it is longer than one may be.
 ///
 /// # Errors
-/// As [`words::feed`].
+/// As [`Family::feed`].
 #[inline]
 pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Result<()> {
     if control.tables.most_departure.is_some() {
         let parts = departure::parts(control, motion)?;
         let of_part = feed.map(|feed| departure::feed_of_part(*feed, parts.len() + 1));
         for part in parts.iter().chain([motion]) {
-            feed_in_one(control, part, of_part.as_ref())?;
+            control.family().feed(control, part, of_part.as_ref())?;
         }
         return Ok(());
     }
-    feed_in_one(control, motion, feed)
-}
-
-#[inline]
-fn feed_in_one(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Result<()> {
-    if control.tables.family == ControlFamily::Klartext {
-        return klartext::motion::feed(control, motion, feed);
-    }
-    words::feed(control, motion, feed)
+    control.family().feed(control, motion, feed)
 }
 
 /// Writes one pass of a thread.
 ///
 /// # Errors
-/// As [`words::thread`]; Klartext has none.
+/// As [`Family::thread`].
 pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead, change: f64) -> Result<()> {
     departure::refuse(control, motion, "a pass of a thread")?;
-    match control.tables.family {
-        ControlFamily::Klartext => refuse("Klartext has no pass of a thread"),
-        ControlFamily::Sinumerik => sinumerik::thread::pass(control, motion, lead, change),
-        ControlFamily::WordAddress if change != 0.0 => {
-            words::varying_thread(control, motion, lead, change)
-        }
-        ControlFamily::WordAddress => words::thread(control, motion, lead),
-    }
+    control.family().thread(control, motion, lead, change)
 }
 
-/// True when the control's language has a cycle for whole threads.
-pub fn has_thread_cycle(control: &Control, cycle: ThreadCycle) -> bool {
-    match control.tables.family {
-        ControlFamily::WordAddress => word_address::thread::has_cycle(cycle),
-        ControlFamily::Sinumerik => cycle == ThreadCycle::Cycle97OfASinumerik,
-        ControlFamily::Klartext => false,
-    }
-}
-
-/// Writes the cycle of one start of a whole thread, from where the tool stands clear; of a cycle of
-/// one pass what comes before its passes.
+/// Ends tool center point control.
 ///
 /// # Errors
-/// As [`word_address::thread::cycle`]; Klartext has no threads.
-pub fn thread_cycle(
-    control: &mut Control,
-    thread: &Thread,
-    shape: &Shape,
-    cycle: ThreadCycle,
-    ends: &Ends,
-) -> Result<()> {
-    match control.tables.family {
-        ControlFamily::WordAddress => {
-            word_address::thread::cycle(control, thread, shape, cycle, ends)
-        }
-        ControlFamily::Sinumerik => sinumerik::thread::cycle(control, thread, shape, ends),
-        ControlFamily::Klartext => refuse("Klartext has no cycle for threads"),
-    }
-}
-
-/// Begins tool-tip control, with the length offset of the tool.
-///
-/// # Errors
-/// As [`word_address::tip_control::begin`].
-pub fn begin_tip_control(control: &mut Control, offset: Option<(i64, Cause)>) -> Result<()> {
-    match (control.tables.family, offset) {
-        (ControlFamily::WordAddress, Some(offset)) => {
-            word_address::tip_control::begin(control, offset)
-        }
-        (ControlFamily::WordAddress, None) => Ok(()),
-        (ControlFamily::Klartext, _) => klartext::frame::begin_tip_control(control),
-        (ControlFamily::Sinumerik, _) => sinumerik::swivel::begin_tip_control(control),
-    }
-}
-
-/// Ends tool-tip control.
-///
-/// # Errors
-/// As [`begin_tip_control`].
+/// As [`Family::end_tip_control`].
 pub fn end_tip_control(control: &mut Control) -> Result<()> {
     vectors::end(control);
-    match control.tables.family {
-        ControlFamily::WordAddress => word_address::tip_control::end(control),
-        ControlFamily::Klartext => klartext::frame::end_tip_control(control),
-        ControlFamily::Sinumerik => sinumerik::swivel::end_tip_control(control),
-    }
+    control.family().end_tip_control(control)
 }
 
-/// Begins a tilted frame in which the rotary axes stand, at the higher of two positions of
-/// the machine's reference axis or at the lower one; says how it lies on the tape.
+/// Begins a tilted work plane.
 ///
 /// # Errors
-/// As [`word_address::frame::begin`].
+/// As [`Family::begin_frame`].
 pub fn begin_frame(
     control: &mut Control,
     turn: &Rotation3<f64>,
     higher: [bool; 2],
 ) -> Result<Rotation3<f64>> {
-    let turn = match control.tables.family {
-        ControlFamily::WordAddress => word_address::frame::begin(control, turn),
-        ControlFamily::Klartext => klartext::frame::begin(control, turn),
-        ControlFamily::Sinumerik => {
-            let higher = higher[sinumerik::swivel::reference(control)];
-            sinumerik::swivel::begin(control, turn, higher)
-        }
-    }?;
+    let turn = control.family().begin_frame(control, turn, higher)?;
     control.state.set(modal::WORK_PLANE, true);
     Ok(turn)
-}
-
-/// Ends a tilted frame.
-///
-/// # Errors
-/// As [`word_address::frame::end`].
-pub fn end_frame(control: &mut Control) -> Result<()> {
-    match control.tables.family {
-        ControlFamily::WordAddress => word_address::frame::end(control),
-        ControlFamily::Klartext => klartext::frame::end(control),
-        ControlFamily::Sinumerik => sinumerik::swivel::end(control),
-    }
-}
-
-/// Brings the control into the modes a motion counts on.
-///
-/// # Errors
-/// As [`words::ready`].
-#[inline]
-pub fn ready(control: &mut Control) -> Result<()> {
-    if control.tables.family == ControlFamily::Klartext {
-        return klartext::motion::ready(control);
-    }
-    words::ready(control)
-}
-
-/// The same for an arc in a plane.
-///
-/// # Errors
-/// As [`ready`].
-pub fn ready_for_arc(control: &mut Control, plane: Plane) -> Result<()> {
-    match control.tables.family {
-        ControlFamily::Klartext => klartext::motion::ready(control),
-        _ => words::ready_for_arc(control, plane),
-    }
-}
-
-/// The same for a hole: the control may be in the cycle that drills it.
-///
-/// # Errors
-/// As [`ready`].
-pub fn ready_for_hole(control: &mut Control, in_cycle: bool) -> Result<()> {
-    match control.tables.family {
-        ControlFamily::Klartext => klartext::motion::ready(control),
-        _ => words::ready_for_hole(control, in_cycle),
-    }
-}
-
-/// True when the control has arcs and helices in a plane, and counts the length of the tool along it
-/// there.
-pub fn has_arc(control: &Control, plane: Plane) -> bool {
-    match control.tables.family {
-        ControlFamily::Klartext => klartext::motion::has_arc(plane),
-        ControlFamily::Sinumerik => length_plane::may_be(control, plane),
-        ControlFamily::WordAddress => true,
-    }
-}
-
-/// True when the control reads an arc from its rounded words as it is meant.
-///
-/// # Errors
-/// A position that does not fit its address.
-#[inline]
-pub fn reads_as_meant(control: &Control, arc: &PlaneArc) -> Result<bool> {
-    match control.tables.family {
-        ControlFamily::Klartext => klartext::motion::reads_as_meant(control, arc),
-        _ => word_address::arc::reads_as_meant(control, arc),
-    }
-}
-
-/// Where an arc begins for the control, in the axes of its plane: where the tape stands, but
-/// behind a helix of Klartext, whose end no word says.
-#[inline]
-pub fn start_of_arc(control: &Control, on_tape: [f64; 2]) -> [f64; 2] {
-    control.klartext.start(on_tape)
-}
-
-/// The same behind an arc whose end the tape says is `on_tape`.
-///
-/// # Errors
-/// A position that does not fit its address.
-#[inline]
-pub fn end_of_arc(control: &Control, arc: &PlaneArc, on_tape: [f64; 2]) -> Result<[f64; 2]> {
-    match control.tables.family {
-        ControlFamily::Klartext => klartext::motion::end_of_arc(control, arc, on_tape),
-        _ => Ok(on_tape),
-    }
 }
 
 /// Writes the block of an arc.
 ///
 /// # Errors
-/// As [`word_address::arc::write`].
+/// As [`Family::arc`].
 pub fn arc(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result<()> {
     departure::refuse_arc(control, arc)?;
-    match control.tables.family {
-        ControlFamily::Klartext => klartext::motion::arc(control, arc, feed),
-        ControlFamily::Sinumerik => {
-            sinumerik::check_arc(control)?;
-            word_address::arc::write(control, arc, feed)?;
-            control
-                .state
-                .set(modal::PLANE_IS_TEMPORARY, length_plane::is_of_one_motion(control, arc.plane));
-            Ok(())
-        }
-        ControlFamily::WordAddress => word_address::arc::write(control, arc, feed),
-    }
-}
-
-/// The code or number of a cycle; `None` where the control has none that does all of
-/// it, so that it must be written as single moves.
-pub fn cycle_code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
-    match control.tables.family {
-        ControlFamily::WordAddress => word_address::cycle::code(control, cycle),
-        ControlFamily::Klartext => klartext::cycle::code(control, cycle),
-        ControlFamily::Sinumerik => sinumerik::cycle::code(control, cycle),
-    }
-}
-
-/// True when a cycle of the control drills a hole that lies like this one.
-pub fn drills(control: &Control, hole: &Hole) -> bool {
-    match control.tables.family {
-        ControlFamily::WordAddress => true,
-        ControlFamily::Klartext => klartext::cycle::drills(hole),
-        ControlFamily::Sinumerik => sinumerik::cycle::drills(control, hole),
-    }
+    control.family().arc(control, arc, feed)
 }
 
 /// Writes the block of a hole.
 ///
 /// # Errors
-/// As [`word_address::cycle::hole`].
+/// As [`Family::hole`].
 pub fn hole(
     control: &mut Control,
     cycle: &Cycle,
@@ -312,48 +492,5 @@ pub fn hole(
     hole: &Hole,
 ) -> Result<()> {
     departure::refuse(control, at, "the way to a hole")?;
-    match control.tables.family {
-        ControlFamily::WordAddress => word_address::cycle::hole(control, cycle, code, at, hole),
-        ControlFamily::Klartext => klartext::cycle::hole(control, cycle, code, at, hole),
-        ControlFamily::Sinumerik => sinumerik::cycle::hole(control, cycle, code, at, hole),
-    }
-}
-
-/// Ends the control's cycle, if it may be in one.
-///
-/// # Errors
-/// As [`word_address::cycle::cancel`].
-pub fn cancel_cycle(control: &mut Control) -> Result<()> {
-    word_address::cycle::cancel(control)
-}
-
-/// Writes a dwell.
-///
-/// # Errors
-/// As [`word_address::dwell::write`].
-pub fn dwell(control: &mut Control, dwell: Dwell) -> Result<()> {
-    write(control, Operation::Dwell(dwell))
-}
-
-/// Leaves the offset of a tool out where the tool brings its length with it.
-///
-/// # Errors
-/// An offset that the control can't take.
-pub fn take_own_offset(control: &mut Control, wanted: &mut ToolChange) -> Result<()> {
-    if control.tables.family == ControlFamily::Klartext {
-        return klartext::tool::take_own_offset(control, wanted);
-    }
-    Ok(())
-}
-
-/// Changes the tool.
-///
-/// # Errors
-/// As [`word_address::tool::change`].
-pub fn change_tool(control: &mut Control, change: ToolChange) -> Result<()> {
-    match control.tables.family {
-        ControlFamily::WordAddress => word_address::tool::change(control, change),
-        ControlFamily::Klartext => klartext::tool::change(control, change),
-        ControlFamily::Sinumerik => sinumerik::tool::change(control, change),
-    }
+    control.family().hole(control, cycle, code, at, hole)
 }

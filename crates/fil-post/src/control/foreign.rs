@@ -1,10 +1,10 @@
 //! What authors write: each block is read once, by the reader of the control's family, and the
 //! control learns from what was read.
 
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations::{self as loc};
 
 use super::texts::without_blanks;
-use super::{Control, klartext, sinumerik, speed_of_others, word_address};
+use super::{Control, klartext, sinumerik, speed_of_others};
 use crate::control_state::{Effect, ForeignBlock, Know, Source};
 
 impl Control {
@@ -25,27 +25,20 @@ impl Control {
 
     /// Reads a text as a block.
     pub fn read(&self, text: String) -> ForeignBlock {
-        let mut block = match self.tables.family {
-            ControlFamily::WordAddress => word_address::reader::read(&text),
-            ControlFamily::Sinumerik => sinumerik::reader::read(&text, &self.commons),
-            ControlFamily::Klartext => klartext::reader::read(&text),
-        };
+        let mut block = self.family().read(self, &text);
         block.text = text;
         block
     }
 
     /// Learns from a text that has gone to the tape.
     pub(super) fn learn(&mut self, block: &ForeignBlock) {
-        let family = self.tables.family;
-        if block.skipped && family == ControlFamily::Sinumerik {
+        if block.skipped && self.can().skipped_is_unknown {
             // What a block does that may be skipped is known in no case that matters.
             self.state.doubt_all(Source::Author);
         } else {
             block.effects.iter().for_each(|effect| self.take_effect(*effect));
             if block.unread.is_none() {
-                if family == ControlFamily::Sinumerik {
-                    sinumerik::reader::learn_words(self, &block.words);
-                }
+                self.family().learn_words(self, &block.words);
                 self.state.learn_text(block, &self.codes, self.unit);
             }
         }
@@ -69,11 +62,7 @@ impl Control {
             Effect::EndsProgramText => klartext::reader::ends_program_text(self),
             Effect::Edge(value) => sinumerik::reader::edge(self, value),
             Effect::OtherCall => sinumerik::reader::other_call(self),
-            Effect::Unread => match self.tables.family {
-                ControlFamily::WordAddress => state.doubt_all(Source::Author),
-                ControlFamily::Sinumerik => sinumerik::reader::forget(self),
-                ControlFamily::Klartext => klartext::reader::forget(self),
-            },
+            Effect::Unread => self.family().forget(self),
         }
     }
 }

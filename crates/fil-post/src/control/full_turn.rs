@@ -7,7 +7,7 @@
 
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet, Position};
-use fil_machine::locations::{self as loc, ControlFamily, RotaryOutput, RotaryZeroSign};
+use fil_machine::locations::{self as loc, RotaryOutput, RotaryZeroSign};
 
 use super::Control;
 use crate::control::needs::Act;
@@ -175,7 +175,7 @@ fn signed(control: &Control, number: usize, scaled: i64, in_minus: bool) -> Resu
         return Ok(if in_minus { -scaled } else { scaled });
     }
     let full = control.tables.axis(number).full_turn();
-    if control.tables.family == ControlFamily::Sinumerik {
+    if control.can().spells_way_round {
         return Ok(if in_minus { -full } else { 0 });
     }
     match control.commons.read(loc::ROTARY_ZERO_SIGN) {

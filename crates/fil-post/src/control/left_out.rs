@@ -5,7 +5,7 @@
 use fil_diag::{Diag, Result};
 use fil_machine::functions::{Group, LengthOffset, Motion, Origin, SpeedMode, Spindle};
 use fil_machine::letters::{F, G, H, M, N, R, S, T};
-use fil_machine::locations::{self as loc, ControlFamily, CycleReturnCodes, FixtureForm};
+use fil_machine::locations::{self as loc, CycleReturnCodes, FixtureForm};
 use fil_machine::modes::FeedMode;
 use fil_machine::rounding::Rounding;
 use fil_machine::{FunctionCode, Letter, letters};
@@ -259,8 +259,7 @@ impl Control {
         let commons = &self.commons;
         let is_axis = self.tables.present().numbers().any(|n| self.tables.axis(n).letter == letter);
         let is_thread = edit.had(|code| self.is_thread(code));
-        let is_offset_of_cutter = letter == letters::D
-            && self.tables.family == ControlFamily::Sinumerik
+        let is_offset_of_cutter = letter == letters::D && self.can().cutting_edges
             || commons.read(loc::CUTCOM_ADDRESS) == Some(letter)
                 && edit.had(|code| matches!(self.meaning(code), Meaning::Compensation(_)));
         let is_offset = self.names_offset(edit)

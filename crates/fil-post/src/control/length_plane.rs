@@ -7,7 +7,7 @@
 
 use fil_diag::Result;
 use fil_machine::letters::G;
-use fil_machine::locations::{self as loc, ControlFamily, ToolFormat};
+use fil_machine::locations::{self as loc, ToolFormat};
 use fil_machine::modes::Plane;
 use fil_machine::{FunctionCode, Letter};
 
@@ -22,8 +22,7 @@ const PARALLEL: f64 = 1e-9;
 
 /// The plane that every motion needs; `None` where lengths do not hang on it.
 pub fn of_motions(control: &Control) -> Option<Plane> {
-    let hangs = control.tables.family == ControlFamily::Sinumerik
-        && !control.commons.read(loc::TOOL_LENGTH_CONST);
+    let hangs = control.can().lengths_by_plane && !control.commons.read(loc::TOOL_LENGTH_CONST);
     hangs.then(|| of_tool(control))
 }
 
@@ -44,7 +43,7 @@ fn of_tool(control: &Control) -> Plane {
 /// True where a motion would be made in another plane than it needs, or may be.
 #[inline]
 pub fn is_left(control: &Control) -> bool {
-    control.tables.family == ControlFamily::Sinumerik
+    control.can().lengths_by_plane
         && of_motions(control).is_some_and(|plane| may_be_another(control, plane))
 }
 
@@ -65,7 +64,7 @@ pub fn may_be(control: &Control, plane: Plane) -> bool {
 /// True for the plane of an arc or a cycle that what comes next does not keep, where lengths do not
 /// hang on it.
 pub fn is_of_one_motion(control: &Control, plane: Plane) -> bool {
-    control.tables.family == ControlFamily::Sinumerik
+    control.can().lengths_by_plane
         && of_motions(control).is_none()
         && !control.tables.is_polar()
         && !control.is_compensated()
@@ -109,7 +108,7 @@ pub fn refuse_repeated(control: &Control, operation: &Operation) -> Result<()> {
 /// The plane in which a mill whose tool lies along Z takes up lengths by a function; `None` for other
 /// machines.
 pub fn of_length(control: &Control) -> Option<Plane> {
-    let is_mill = control.tables.family == ControlFamily::WordAddress
+    let is_mill = control.can().length_functions
         && !control.commons.read(loc::LATHE_DIAMETER)
         && control.commons.read(loc::TOOL_FORMAT) == ToolFormat::TWordAndChangeCode
         && control.code_if_any(loc::TOOL_LENGTH_CODE).is_some();

@@ -5,9 +5,9 @@ use fil_machine::FunctionCode;
 use fil_machine::axes::AxisSet;
 use fil_machine::commons::EMPTY;
 use fil_machine::letters::D;
-use fil_machine::locations::{self as loc, ControlFamily, HomeFrame};
+use fil_machine::locations::{self as loc, HomeFrame};
 
-use super::{Control, family, full_turn, klartext};
+use super::{Control, full_turn};
 use crate::cause::Cause;
 use crate::control::needs::Act;
 use crate::errors::PostCode;
@@ -15,9 +15,6 @@ use crate::operation::motion::Motion;
 
 /// The axes of the block go where they say in the frame of the machine.
 const MACHINE: FunctionCode = FunctionCode::whole(53);
-
-/// The same in a line of Klartext.
-const MACHINE_LINE: FunctionCode = FunctionCode::whole(91);
 
 /// True for a machine whose home, retract and change positions are its own coordinates.
 pub fn is_meant(control: &Control) -> bool {
@@ -46,9 +43,9 @@ pub fn go(control: &mut Control, motion: &Motion, before: Before, cause: Cause) 
     if motion.axes.and(present).is_empty() {
         return Ok(());
     }
-    let of_sinumerik = control.tables.family == ControlFamily::Sinumerik;
-    let edge = control.sinumerik.edge().filter(|_| of_sinumerik);
-    if of_sinumerik && edge.is_none() && before == Before::Others {
+    let has_edges = control.can().cutting_edges;
+    let edge = control.sinumerik.edge().filter(|_| has_edges);
+    if has_edges && edge.is_none() && before == Before::Others {
         return PostCode::Family.err(
             "a position of the machine while the cutting edge in force is not known: the D word \
              that ends the length of the tool could not be taken back",
@@ -77,7 +74,7 @@ pub fn go(control: &mut Control, motion: &Motion, before: Before, cause: Cause) 
 }
 
 fn block(control: &mut Control, motion: &Motion) -> Result<()> {
-    family::ready(control)?;
+    control.family().ready(control)?;
     // A zero that the control has shifted does not count in this frame.
     let zero = control.tables.zero();
     if !motion.axes.and(AxisSet::ROTARY).is_empty() {
@@ -89,22 +86,7 @@ fn block(control: &mut Control, motion: &Motion) -> Result<()> {
         let to = motion.position[number] + zero.get(number).copied().unwrap_or(0.0);
         control.block.put(position, axis.scaled(to)?);
     }
-    match control.tables.family {
-        ControlFamily::Klartext => {
-            control.m(MACHINE_LINE);
-            klartext::motion::write_rapid(control)?;
-        }
-        family => {
-            let code = control.code(loc::RAPID_CODE_Z, "rapid motion")?;
-            control.g(MACHINE);
-            control.g(code);
-            if family == ControlFamily::Sinumerik {
-                // The length of the tool would count in it.
-                control.word(D, 0.0)?;
-            }
-            control.write_block()?;
-        }
-    }
+    control.family().to_machine_position(control)?;
     for number in motion.axes.numbers() {
         let letter = control.tables.axis(number).letter;
         control.commons.set_last_output(letter, EMPTY);
@@ -113,4 +95,19 @@ fn block(control: &mut Control, motion: &Motion) -> Result<()> {
     let moved = |axis| motion.axes.numbers().any(|n| control.tables.axis(n).letter == axis);
     control.state.length_ends_at_machine(&control.codes, moved);
     Ok(())
+}
+
+/// Writes the block under construction as a rapid motion to a position of the machine by its
+/// function (G53), and ends the length of the cutting edge in it (D0).
+///
+/// # Errors
+/// The machine has no code for rapid motions.
+pub(super) fn by_code(control: &mut Control, ends_edge: bool) -> Result<()> {
+    let code = control.code(loc::RAPID_CODE_Z, "rapid motion")?;
+    control.g(MACHINE);
+    control.g(code);
+    if ends_edge {
+        control.word(D, 0.0)?;
+    }
+    control.write_block()
 }

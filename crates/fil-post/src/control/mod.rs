@@ -10,6 +10,7 @@ mod apart;
 mod characters;
 mod departure;
 mod edit;
+mod families;
 pub mod family;
 mod foreign;
 pub(crate) mod full_turn;
@@ -148,6 +149,7 @@ pub struct Control {
     /// Unit of the CL file and of the program; `None` before anything says it.
     pub unit: Option<Unit>,
     codes: Codes,
+    family: &'static family::Row,
 }
 
 impl Control {
@@ -161,9 +163,11 @@ impl Control {
         let mut tables = MachineTables::default();
         tables.refresh(&commons, true)?;
         let unit = Unit::of_machine(&commons);
+        let family = families::row(tables.family);
         let state = program::state_at_start(&commons, unit);
         Ok(Control {
             codes: Codes::from_commons(&commons),
+            family,
             commons,
             tape: Tape::default(),
             warnings: Warnings::default(),
@@ -200,6 +204,7 @@ impl Control {
             self.follow_unit_of_machine()?;
             contradictions::check(&self.commons)?;
             self.codes = Codes::from_commons(&self.commons);
+            self.family = families::row(self.tables.family);
             self.tables
                 .format_feed(self.state.get(modal::FEED_MODE).unwrap_or(FeedMode::PerMinute));
             self.straight = false;

@@ -25,6 +25,10 @@ pub enum Subject {
     Cycle,
     /// No THREAD of the CL file is active.
     Thread,
+    /// No CIRCLE waits for the GOTO at its end.
+    ArcEnd,
+    /// No OP/THREAD waits for its two points.
+    ThreadPoints,
     /// No block of block delete is open.
     BlockDelete,
     /// One tool and offset, whether or not the blocks of block delete are run.
@@ -44,6 +48,12 @@ pub struct Need(pub Subject, pub PostCode);
 pub enum Act {
     /// Any block.
     Block,
+    /// A word that is no point of the path.
+    Word,
+    /// A motion that is no GOTO, such as GOHOME.
+    OtherMotion,
+    /// TRANS, GODLTA or another word from which points count otherwise.
+    OtherPoints,
     /// A motion in the part.
     Motion,
     /// CIRCLE.
@@ -107,12 +117,17 @@ pub enum Act {
 const NOT_COMPENSATED: Need = Need(Subject::CompensationAsked, PostCode::CompensationOn);
 const NOT_SKIPPED: Need = Need(Subject::BlockDelete, PostCode::SkippedPart);
 const NO_CYCLE: Need = Need(Subject::Cycle, PostCode::InCycle);
+const NO_ARC: Need = Need(Subject::ArcEnd, PostCode::ArcEnd);
+const NO_POINTS: Need = Need(Subject::ThreadPoints, PostCode::Thread);
 
 impl Act {
     /// All operations.
     #[cfg(test)]
-    const ALL: [Act; 30] = [
+    const ALL: [Act; 33] = [
         Act::Block,
+        Act::Word,
+        Act::OtherMotion,
+        Act::OtherPoints,
         Act::Motion,
         Act::Arc,
         Act::Hole,
@@ -149,6 +164,9 @@ impl Act {
     pub const fn needs(self) -> &'static [Need] {
         match self {
             Act::Block => &[Need(Subject::ProgramEnd, PostCode::AfterEnd)],
+            Act::Word => &[NO_POINTS],
+            Act::OtherMotion => &[NO_ARC],
+            Act::OtherPoints => &[NO_ARC, NO_POINTS],
             Act::Motion => &[Need(Subject::Tool, PostCode::SkippedPart)],
             Act::Arc => &[Need(Subject::Thread, PostCode::Thread), NO_CYCLE],
             Act::Hole => &[Need(Subject::CompensationAsked, PostCode::InCycle)],
@@ -187,6 +205,9 @@ impl Act {
     const fn place(self) -> &'static str {
         match self {
             Act::Block => "before this block",
+            Act::Word => "before this word",
+            Act::OtherMotion => "before another motion",
+            Act::OtherPoints => "before points that count otherwise",
             Act::Motion => "before this motion",
             Act::Arc => "at CIRCLE",
             Act::Hole => "at a hole",
@@ -231,6 +252,10 @@ impl Subject {
             }
             Subject::Cycle => "a CYCLE is active",
             Subject::Thread => "a THREAD is active",
+            Subject::ArcEnd => "no GOTO came after CIRCLE",
+            Subject::ThreadPoints => {
+                "two GOTO must follow OP/THREAD with DEPTH and CUTS at once, and one is missing"
+            }
             Subject::BlockDelete => "the blocks of OPSKIP are still open",
             Subject::Tool => {
                 "the tool or its offset depends on block delete: OPSKIP skips a tool change"
@@ -248,6 +273,10 @@ pub struct Part {
     pub in_cycle: bool,
     /// THREAD is active.
     pub in_thread: bool,
+    /// CIRCLE waits for its end.
+    pub in_arc: bool,
+    /// OP/THREAD waits for a point.
+    pub awaits_points: bool,
 }
 
 impl Control {
@@ -284,6 +313,8 @@ impl Control {
             Subject::CompensationEitherWay => self.is_uncompensated_either_way(),
             Subject::Cycle => !part.in_cycle,
             Subject::Thread => !part.in_thread,
+            Subject::ArcEnd => !part.in_arc,
+            Subject::ThreadPoints => !part.awaits_points,
             Subject::BlockDelete => !self.state.may_be_skipped(),
             Subject::Tool => !self.state.groups().depends_on_block_delete(modal::TOOL),
             Subject::AxisClamp => !self.state.may_be(modal::AXIS_CLAMP, true),
@@ -351,6 +382,8 @@ mod tests {
             }
             Subject::Cycle => part.in_cycle = true,
             Subject::Thread => part.in_thread = true,
+            Subject::ArcEnd => part.in_arc = true,
+            Subject::ThreadPoints => part.awaits_points = true,
             Subject::BlockDelete => state.skip_begins(&control.commons),
             Subject::AxisClamp => state.set(modal::AXIS_CLAMP, true),
             Subject::ProgramEnd => state.set(modal::PROGRAM_END, true),
@@ -371,12 +404,14 @@ mod tests {
         state
     }
 
-    const SUBJECTS: [Subject; 9] = [
+    const SUBJECTS: [Subject; 11] = [
         Subject::CompensationAsked,
         Subject::Compensation,
         Subject::CompensationEitherWay,
         Subject::Cycle,
         Subject::Thread,
+        Subject::ArcEnd,
+        Subject::ThreadPoints,
         Subject::BlockDelete,
         Subject::Tool,
         Subject::AxisClamp,
@@ -415,9 +450,10 @@ mod tests {
         let mut control = ready();
         control.state.set(modal::CUTTER_COMP, Compensation::Right);
         let free = [Act::Block, Act::Motion, Act::Arc, Act::Compensation, Act::OriginShift];
+        let words = [Act::Word, Act::OtherMotion, Act::OtherPoints];
         let other = [Act::MillTurnMotion, Act::WorkPlaneOff, Act::MasterSpindle, Act::ClampedMove];
         for act in Act::ALL {
-            let may = free.contains(&act) || other.contains(&act);
+            let may = [&free[..], &words, &other].iter().any(|acts| acts.contains(&act));
             assert_eq!(control.require(act).is_ok(), may, "{act:?}");
         }
     }

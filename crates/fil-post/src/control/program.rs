@@ -6,7 +6,7 @@
 
 use fil_diag::Result;
 use fil_machine::commons::Dbl;
-use fil_machine::locations::{self as loc, ControlFamily, TapePartnoText};
+use fil_machine::locations::{self as loc, TapePartnoText};
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::setting::{CharacterAt, CodeAt};
 use fil_machine::{Commons, FunctionCode, user_blocks};
@@ -113,15 +113,13 @@ fn write_start(control: &mut Control) -> Result<()> {
     let of_both = control.commons.read(loc::UNITS_MODE) == loc::UnitsMode::AsTheClFile;
     let unit = control.unit.filter(|_| !(own_start && of_both));
     control.state = state_at_start(&control.commons, unit);
-    if control.tables.family == ControlFamily::Klartext {
-        return super::klartext::program::start(control, &blocks);
+    if control.family().start(control, &blocks)? {
+        return Ok(());
     }
     tape_mark(control, loc::TAPE_START_CODE)?;
     leader(control, loc::TAPE_LEADER)?;
     tape_mark(control, loc::TAPE_START_CHAR)?;
-    if control.tables.family == ControlFamily::Sinumerik {
-        super::sinumerik::program::head(control)?;
-    }
+    control.family().head(control)?;
     part_name(control)?;
     program_number(control)?;
     time_stamp(control)?;
@@ -140,10 +138,7 @@ fn write_start(control: &mut Control) -> Result<()> {
         mode_codes(control);
     }
     control.write_block()?;
-    if control.tables.family == ControlFamily::Sinumerik {
-        super::sinumerik::program::say_diameters(control)?;
-    }
-    Ok(())
+    control.family().begin_diameters(control)
 }
 
 /// Writes the end of the program.
@@ -157,7 +152,7 @@ pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
     control.skip_blocks(false)?;
     control.flush_waiting()?;
     if may_drill {
-        super::word_address::cycle::leave(control)?;
+        control.family().leave_cycle(control)?;
     }
     for block in user_blocks::END.read(&control.commons) {
         control.because(Cause::default(), |control| control.write_text(&block, true))?;
@@ -191,8 +186,8 @@ pub fn close_ended(control: &mut Control) -> Result<()> {
 fn close(control: &mut Control) -> Result<()> {
     control.head.closed = true;
     control.end_replacing();
-    if control.tables.family == ControlFamily::Klartext {
-        return super::klartext::program::end(control);
+    if control.family().close(control)? {
+        return Ok(());
     }
     control.because(Cause::default(), |control| {
         tape_mark(control, loc::TAPE_END_CHAR)?;
@@ -287,8 +282,8 @@ fn say_what_is_unsaid(control: &mut Control, at_start: Modes) {
 /// Adds the code that makes X a diameter. Start blocks of the machine's own do not stand for it:
 /// read as radii, all words of X would be twice as far from the axis as they are meant.
 fn say_diameters(control: &mut Control) {
-    let is_sinumerik = control.tables.family == ControlFamily::Sinumerik;
-    let code = control.code_if_any(loc::LATHE_DIAMETER_CODE).filter(|_| !is_sinumerik);
+    let by_code = !control.can().diameter_statement;
+    let code = control.code_if_any(loc::LATHE_DIAMETER_CODE).filter(|_| by_code);
     if let Some(code) = code {
         control.g(code);
     }
@@ -319,7 +314,7 @@ fn program_number(control: &mut Control) -> Result<()> {
 /// Writes date and time as a comment, where the machine wants them.
 fn time_stamp(control: &mut Control) -> Result<()> {
     let Some(time) = control.head.time.clone() else { return Ok(()) };
-    if control.tables.family == ControlFamily::Sinumerik {
+    if !control.can().brackets_are_comments {
         return control.put_line(&format!(";{time}"), false).map(|_| ());
     }
     let open = control.commons.read(loc::MESSAGE_OUT_CHAR).unwrap_or('(');

@@ -2,9 +2,8 @@
 
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
-use fil_machine::locations::ControlFamily;
 
-use super::{Control, klartext, sinumerik};
+use super::Control;
 use crate::errors::PostCode;
 
 impl Control {
@@ -18,12 +17,7 @@ impl Control {
             return Ok(());
         }
         self.begin()?;
-        match self.tables.family {
-            // MCALL on one side of the mark would call the cycle on the other.
-            ControlFamily::Sinumerik => sinumerik::cycle::cancel(self)?,
-            ControlFamily::Klartext => klartext::skip::change(self, on)?,
-            ControlFamily::WordAddress => {}
-        }
+        self.family().skip(self, on)?;
         self.flush_waiting()?;
         if self.waiting.length_offset.is_some() {
             return PostCode::SkippedPart.err(

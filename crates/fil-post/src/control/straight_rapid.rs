@@ -4,7 +4,7 @@
 
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
-use fil_machine::locations::{self as loc, ControlFamily, RapidStraight};
+use fil_machine::locations::{self as loc, RapidStraight};
 use nalgebra::Vector3;
 
 use super::{Control, heads};
@@ -20,9 +20,8 @@ const PARALLEL: f64 = 1e-8;
 /// It goes along a leaning tool, and the control drives each axis at its own speed.
 pub(super) fn look(control: &mut Control, motion: &Motion) -> Result<()> {
     let goes = control.commons.read(loc::RAPID_STRAIGHT);
-    let by_words = control.tables.family == ControlFamily::WordAddress;
-    let is_straight =
-        goes == RapidStraight::OnAStraightLine || goes == RapidStraight::NotSaid && !by_words;
+    let is_straight = goes == RapidStraight::OnAStraightLine
+        || goes == RapidStraight::NotSaid && control.can().straight_rapids;
     if is_straight || !control.tables.chain().has_heads() || !leans_in(control, motion) {
         return Ok(());
     }

@@ -6,7 +6,6 @@ use fil_diag::Result;
 use fil_machine::Letter;
 use fil_machine::axes::{AXES, AxisSet};
 use fil_machine::letters::IJK;
-use fil_machine::locations::ControlFamily;
 
 use super::Control;
 use crate::control_state::modal;
@@ -122,7 +121,7 @@ pub fn end(control: &mut Control) {
 /// The control is told directions and takes no such words.
 pub(super) fn turned_by_words(control: &mut Control) -> Result<()> {
     control.tip.leans = None;
-    if are_in_force(control) && !takes_angles_too(control.tables.family) {
+    if are_in_force(control) && !control.can().angles_beside_vectors {
         return PostCode::TipControl
             .err_with("a rotary axis turns by its own word behind G43.5", SAY_ANGLES);
     }
@@ -149,12 +148,6 @@ pub fn say_the_same(solutions: &[[f64; 2]], from: [f64; 2], to: [f64; 2]) -> boo
 /// A turn without whole turns, -180 to 180 degrees.
 fn shortest(turn: f64) -> f64 {
     turn - 360.0 * (turn / 360.0).round()
-}
-
-/// Whether the family takes angles beside vectors, so that a motion which a vector could turn
-/// otherwise is said by angles.
-pub fn takes_angles_too(family: ControlFamily) -> bool {
-    family != ControlFamily::WordAddress
 }
 
 #[cfg(test)]

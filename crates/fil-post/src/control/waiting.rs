@@ -4,7 +4,7 @@
 use fil_diag::Result;
 use fil_machine::Letter;
 use fil_machine::axes::AxisSet;
-use fil_machine::locations::{ControlFamily, Placement};
+use fil_machine::locations::Placement;
 
 use super::Control;
 use crate::block::Block;
@@ -189,9 +189,7 @@ impl Control {
     /// # Errors
     /// As [`Control::write_block`].
     pub fn flush_waiting(&mut self) -> Result<()> {
-        if self.tables.family == ControlFamily::Klartext {
-            super::klartext::motion::refuse_unbegun(self)?;
-        }
+        self.family().refuse_unbegun(self)?;
         let cause = self.block.cause;
         for (_, _, words) in std::mem::take(&mut self.waiting.words) {
             self.block = words;

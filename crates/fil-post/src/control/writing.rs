@@ -4,15 +4,13 @@
 use fil_diag::Result;
 use fil_machine::Letter;
 use fil_machine::letters::{G, M};
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations::{self as loc};
 use fil_machine::modes::Plane;
 
 use super::edit::plain;
 use super::left_out::{Edit, Maker};
 use super::word_address::modes;
-use super::{
-    Compensation, Control, Function, klartext, program, sinumerik, speed_of_others, texts,
-};
+use super::{Compensation, Control, Function, program, speed_of_others, texts};
 use crate::cause::Cause;
 use crate::control::needs::Act;
 use crate::control_state::modal::{self, Group, Value};
@@ -111,11 +109,7 @@ impl Control {
         }
         let before = self.before_others()?;
         let start = self.tape.text.len();
-        if self.tables.family == ControlFamily::Sinumerik {
-            sinumerik::block::put(self, words)?;
-        } else {
-            self.tape.words(words, &self.tables, &mut self.commons)?;
-        }
+        self.family().put_words(self, words)?;
         let maker = if edit.is_some() { Maker::Post } else { Maker::Words };
         if self.edit_line(start, maker)? {
             return Ok(());
@@ -125,9 +119,7 @@ impl Control {
             Some(edit) => self.learn_left(edit),
             None => self.state.learn_words(&plain, &self.codes),
         }
-        if self.tables.family == ControlFamily::Sinumerik {
-            sinumerik::reader::learn_words(self, &plain);
-        }
+        self.family().learn_words(self, &plain);
         if edit.is_none_or(|edit| self.changes_speed(edit)) {
             speed_of_others::learn(self, &plain, true);
         }
@@ -178,10 +170,8 @@ impl Control {
         if maker == Maker::Text {
             self.refuse_without_length(block.words())?;
         }
-        if self.tables.family == ControlFamily::Sinumerik {
-            sinumerik::reader::refuse_other_diameters(self, block)?;
-        }
-        if self.tables.family != ControlFamily::WordAddress {
+        self.family().check_text(self, block)?;
+        if !self.can().brackets_are_comments {
             texts::refuse_brackets(text)?;
         }
         let edited = match maker {
@@ -192,7 +182,7 @@ impl Control {
             return Ok(());
         }
         let mut before = self.before_others()?;
-        if self.tables.family == ControlFamily::Klartext && block.named(&[RETRACT]).is_some() {
+        if self.can().retract_function && block.named(&[RETRACT]).is_some() {
             before.frame = None;
         }
         self.learn(block);
@@ -213,8 +203,7 @@ impl Control {
     fn take_plane_back(&mut self, before: &BeforeOthers) {
         let changed =
             self.state.get(modal::PLANE).is_some() && self.state.get(modal::PLANE) != before.plane;
-        let is_lathe = self.tables.family == ControlFamily::Sinumerik
-            && self.commons.read(loc::LATHE_DIAMETER);
+        let is_lathe = self.can().lengths_by_plane && self.commons.read(loc::LATHE_DIAMETER);
         if changed && is_lathe {
             self.state.forget(modal::DIAMETER_MODE, Source::Post);
         }
@@ -249,9 +238,9 @@ impl Control {
     /// Texts have named a length of the tool or taken it off; on a SINUMERIK H is any function,
     /// and another edge counts from its own length.
     fn length_was_named(&self, before: &BeforeOthers) -> bool {
-        match self.tables.family {
-            ControlFamily::Sinumerik => (self.sinumerik.edge() == Some(0)) != before.without_edge,
-            _ => self.state.groups().changed_since_foreign(modal::LENGTH_WORD),
+        match self.can().cutting_edges {
+            true => (self.sinumerik.edge() == Some(0)) != before.without_edge,
+            false => self.state.groups().changed_since_foreign(modal::LENGTH_WORD),
         }
     }
 
@@ -354,13 +343,9 @@ impl Control {
 
     fn put(&mut self, text: &str, numbered: bool, maker: Maker) -> Result<bool> {
         self.warn_of_letters(text);
-        let (cause, start) = (self.block.cause, self.tape.text.len());
-        if self.tables.family == ControlFamily::Klartext {
-            klartext::line::put(self, &klartext::line::Line::of_text(text, cause))?;
-            return Ok(false);
-        }
-        self.tape.line(text, cause, numbered, &self.tables, &mut self.commons)?;
-        self.edit_line(start, maker)
+        let start = self.tape.text.len();
+        self.family().put_text(self, text, numbered)?;
+        if self.can().edits_lines { self.edit_line(start, maker) } else { Ok(false) }
     }
 
     /// Warns of letters of a text that the control may not read.

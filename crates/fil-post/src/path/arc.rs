@@ -70,7 +70,7 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         if turns_axis { None } else { in_plane(post, arc, start, (radius, sweep), target)? };
     let whole = match whole {
         Some((whole, _)) if is_across_compensation(post, &whole)? => None,
-        Some((whole, _)) if !family::has_arc(&post.control, whole.plane) => None,
+        Some((whole, _)) if !post.control.family().has_arc(&post.control, whole.plane) => None,
         whole => whole,
     };
     let Some((mut whole, solution)) = whole else {
@@ -81,15 +81,14 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     };
     rotary::establish(post, solution)?;
     check_travel(post, &whole)?;
-    family::ready_for_arc(&mut post.control, whole.plane)?;
+    post.control.family().ready_for_arc(&mut post.control, whole.plane)?;
     let Some(stands) = words::start_on_tape(&post.control, &whole.from) else {
         return PostCode::ArcStart.err(ELSEWHERE);
     };
-    whole.start =
-        family::start_of_arc(&post.control, whole.plane.axes().map(|number| stands[number]));
+    whole.start = post.control.klartext.start(whole.plane.axes().map(|number| stands[number]));
     if usual_step(post, &whole) == Step::Turns
         && sweep <= FULL
-        && family::reads_as_meant(&post.control, &whole)?
+        && post.control.family().reads_as_meant(&post.control, &whole)?
     {
         let feed = feed_rules::settle_of_arc(post, &whole)?;
         family::arc(&mut post.control, &whole, feed.as_ref())?;
@@ -212,7 +211,7 @@ fn is_across_compensation(post: &Post, arc: &PlaneArc) -> Result<bool> {
     let Some(plane) = other.filter(|_| control.state.compensates()) else { return Ok(false) };
     let changes =
         control.commons.read(loc::CIRCLE_CUTCOM_PLANE) != CircleCutcomPlane::StraightMoves;
-    if changes && family::has_arc(control, arc.plane) {
+    if changes && control.family().has_arc(control, arc.plane) {
         return Ok(false);
     }
     let shared = arc.plane.axes().into_iter().position(|axis| axis != plane.normal());
@@ -361,7 +360,7 @@ fn parts(post: &Post, arc: &PlaneArc) -> Result<Option<Parts>> {
 /// True where the control reads each part as it is meant.
 fn are_meant(post: &Post, mut parts: Parts) -> Result<bool> {
     while let Some(part) = parts.next(&post.control)? {
-        if !family::reads_as_meant(&post.control, &part)? {
+        if !post.control.family().reads_as_meant(&post.control, &part)? {
             return Ok(false);
         }
     }

@@ -1,7 +1,7 @@
 //! The parts of an arc that takes several blocks.
 
 use super::sense::Course;
-use crate::control::{Control, family};
+use crate::control::Control;
 use crate::operation::motion::PlaneArc;
 use crate::operation::{Arc, Target};
 use fil_diag::Result;
@@ -142,7 +142,7 @@ impl Parts {
         for (end, number) in on_tape.iter_mut().zip(axes) {
             *end = control.tables.axis(number).on_tape(to[number])?;
         }
-        self.start = family::end_of_arc(control, &part, on_tape)?;
+        self.start = control.family().end_of_arc(control, &part, on_tape)?;
         (self.from, self.done) = (to, stop);
         Ok(Some(part))
     }

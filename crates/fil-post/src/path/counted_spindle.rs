@@ -2,7 +2,7 @@
 
 use fil_diag::Result;
 use fil_machine::letters;
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations::{self as loc};
 
 use super::functions_of_others;
 use crate::control::Control;
@@ -22,7 +22,7 @@ pub(super) fn refuse_choices_of_others(control: &Control, operation: &Operation)
     let choices = [loc::SPINDLE_SIDE_MASTER_CODE, loc::SPINDLE_MAIN_MASTER_CODE]
         .map(|at| control.code_if_any(at));
     let found = match operation {
-        Operation::Text(blocks) if control.tables.family == ControlFamily::Sinumerik => {
+        Operation::Text(blocks) if control.can().mode_statements => {
             blocks.iter().any(reader::transforms)
         }
         _ => functions_of_others::has(operation, |letter, code| {

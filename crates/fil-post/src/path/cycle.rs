@@ -5,7 +5,7 @@ use fil_machine::letters::XYZ;
 use fil_machine::locations as loc;
 
 use super::{hole, tip_hole};
-use crate::control::family;
+use crate::control::word_address::cycle;
 use crate::operation::cycle::{AboveHoles, Cycle};
 use crate::post::Post;
 
@@ -14,7 +14,7 @@ use crate::post::Post;
 /// # Errors
 /// The machine has no code that ends the cycle the control is in.
 pub fn replace(post: &mut Post, cycle: Option<Cycle>) -> Result<()> {
-    family::cancel_cycle(&mut post.control)?;
+    cycle::cancel(&mut post.control)?;
     let mut old = post.path.cycle.take();
     if let (Some(old), None) = (&mut old, &cycle)
         && post.control.commons.read(loc::CYCLE_RETRACT_BLOCK)

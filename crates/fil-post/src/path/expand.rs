@@ -14,7 +14,7 @@ use crate::control::{family, tap};
 use crate::errors::PostCode;
 use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use crate::operation::motion::Motion;
-use crate::operation::{Dwell, Feed, Lead, SpindleSpeed};
+use crate::operation::{Dwell, Feed, Lead, Operation, SpindleSpeed};
 
 /// Drills one hole: rapid to it and to the R level, feed to the bottom (in
 /// pecks), dwell, retract.
@@ -159,7 +159,9 @@ impl Moves<'_> {
         if self.cycle.dwell > 0.0 {
             let seconds = Dwell::Seconds(self.cycle.dwell);
             let cause = self.cycle.due_to(self.cycle.words.dwell);
-            self.control.because(cause, |control| family::dwell(control, seconds))?;
+            self.control.because(cause, |control| {
+                control.family().write(control, Operation::Dwell(seconds))
+            })?;
         }
         match settle_way_out(self.control, self.cycle)? {
             WayOut::Rapid => self.rapid(self.hole.rest()),

@@ -15,8 +15,9 @@ use nalgebra::{Point3, Vector3};
 use super::height;
 use super::position::Solution;
 use super::state::TiltedFrame;
+use crate::control::Control;
 use crate::control::needs::Act;
-use crate::control::{Control, family};
+use crate::control::word_address::cycle;
 use crate::control_state::{Meaning, modal};
 use crate::errors::PostCode;
 use crate::operation::Operation;
@@ -147,10 +148,10 @@ pub fn end(control: &mut Control) -> Result<()> {
         return Ok(());
     }
     control.require(Act::WorkPlaneOff)?;
-    family::cancel_cycle(control)?;
+    cycle::cancel(control)?;
     let known = knows_rotary(control);
     let slides = height::slides_in_frame(control);
-    family::end_frame(control)?;
+    control.family().end_frame(control)?;
     control.state.set(modal::WORK_PLANE, false);
     forget_positions(control, known);
     match slides {

@@ -3,6 +3,7 @@
 use super::state::TiltedFrame;
 use super::{frame, height, machine_position, position, tip_control};
 use crate::control::needs::Act;
+use crate::control::word_address::cycle;
 use crate::control::{Control, Function, family, full_turn};
 use crate::errors::PostCode;
 use crate::operation::Target;
@@ -55,7 +56,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<()> {
     control.begin()?;
     control.require_unit()?;
     control.require(Act::WorkPlaneOn)?;
-    family::cancel_cycle(control)?;
+    cycle::cancel(control)?;
     control.flush_function(Function::WorkOffset)?;
     let stands = post.path.rotary.unwrap_or_else(|| position::on_tape(post));
     let near = post.path.turning.chosen.take().unwrap_or(stands);

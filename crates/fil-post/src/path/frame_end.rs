@@ -4,6 +4,7 @@
 use fil_diag::Result;
 
 use super::{frame, height, rapid_lean, turned_apart};
+use crate::control::word_address::cycle;
 use crate::control::{family, machine_frame};
 use crate::control_state::Place;
 use crate::errors::PostCode;
@@ -79,7 +80,7 @@ fn rise_to(post: &mut Post, z: f64) -> Result<()> {
         frame::check_on_the_way(post, [x, y, z])?;
     }
     let control = &mut post.control;
-    family::cancel_cycle(control)?;
+    cycle::cancel(control)?;
     let cause = control.block.cause.whole();
     family::rapid(control, &Motion::along(2, z), RapidCode::Along, cause)
 }

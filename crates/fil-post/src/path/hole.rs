@@ -5,8 +5,8 @@ use fil_diag::Result;
 use fil_machine::Letter;
 use fil_machine::axes::{AXES, AxisSet, Position};
 use fil_machine::locations::{
-    self as loc, ControlFamily, CycleMultax, CycleMultaxAny, CycleMultaxXy, CycleMultaxYz,
-    CycleMultaxZx, CycleReturnCodes,
+    self as loc, CycleMultax, CycleMultaxAny, CycleMultaxXy, CycleMultaxYz, CycleMultaxZx,
+    CycleReturnCodes,
 };
 use fil_machine::modes::FeedMode;
 
@@ -71,7 +71,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     if post.control.tables.frame_output && frame_begin::turn_to(post, target, false)? {
         (cycle.initial, cycle.above, cycle.in_force) = (None, None, None);
     }
-    family::ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
+    post.control.family().ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
     post.control.ready_length()?;
     let (position, mut hole, solution) = locate(post, cycle, target)?;
     rotary::establish(post, solution)?;
@@ -90,8 +90,9 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     for level in [hole.bottom, hole.clear, hole.initial] {
         post.control.tables.axis(hole.along).check(level)?;
     }
-    let has_cycle = family::drills(&post.control, &hole) && !as_single_moves(post, target);
-    let code = family::cycle_code(&post.control, cycle).filter(|_| has_cycle);
+    let has_cycle =
+        post.control.family().drills(&post.control, &hole) && !as_single_moves(post, target);
+    let code = post.control.family().cycle_code(&post.control, cycle).filter(|_| has_cycle);
     cycle.along = Some(hole.along);
     if cycle.kind == CycleKind::Tap {
         spindle::counted::check_tap(&post.control, code.is_some())?;
@@ -227,14 +228,14 @@ fn without_return_code(
 ) -> Result<Option<f64>> {
     let control = &mut post.control;
     let says_it = control.commons.read(loc::CYCLE_RETURN_CODES) == CycleReturnCodes::Yes
-        || control.tables.family != ControlFamily::WordAddress;
+        || control.can().cycles_say_return;
     if says_it || (hole.initial - hole.clear).abs() <= SAME_LEVEL {
         return Ok(None);
     }
     let is_level =
         |last: Hole| last.along == hole.along && (last.clear - hole.clear).abs() <= SAME_LEVEL;
     if control.state.is(modal::CYCLE, true) && !cycle.in_force.is_some_and(is_level) {
-        family::cancel_cycle(control)?;
+        words::cancel(control)?;
         cycle.in_force = None;
     }
     if !control.state.is(modal::CYCLE, true) {
@@ -251,7 +252,7 @@ fn without_return_code(
 /// Ends the control's cycle after a hole and goes up to the level before it.
 fn go_up(post: &mut Post, cycle: &mut Cycle, hole: &Hole, level: f64) -> Result<()> {
     words::stands_at(&mut post.control, hole.along, hole.clear)?;
-    family::cancel_cycle(&mut post.control)?;
+    words::cancel(&mut post.control)?;
     cycle.in_force = None;
     let cause = cycle.cause;
     post.control
@@ -405,7 +406,7 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
     let of_control = cycle.in_force.map(|last| last.initial).or(here);
     let level = if below { wanted } else { of_control.or(initial).unwrap_or(wanted) };
     if below || unknown {
-        family::cancel_cycle(&mut post.control)?;
+        words::cancel(&mut post.control)?;
         cycle.in_force = None;
         let (across, motion) = (expand::without(hole.along), Motion::along(hole.along, wanted));
         let cause = cycle.cause;

@@ -6,8 +6,8 @@ use fil_machine::locations::{self as loc, RotaryTableWords};
 use nalgebra::{Matrix3x4, Vector3};
 
 use super::{Statement, Transformation, position, rapid, tip};
-use crate::control::family;
 use crate::control::needs::Act;
+use crate::control::word_address::cycle;
 use crate::errors::PostCode;
 use crate::operation::motion::Motion;
 use crate::post::Post;
@@ -38,7 +38,7 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
         post.control.commons.read(loc::ROTARY_TABLE_WORDS) == RotaryTableWords::PointsStay;
     let moved = if points_stay { Some(under_points(post, angles)?) } else { None };
     post.path.interrupt();
-    family::cancel_cycle(&mut post.control)?;
+    cycle::cancel(&mut post.control)?;
     let motion = Motion::along(index + 3, to);
     let cause = post.control.block.cause.whole();
     rapid::rapid(&mut post.control, &motion, cause)?;

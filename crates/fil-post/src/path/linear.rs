@@ -3,7 +3,8 @@
 use fil_diag::Result;
 
 use super::{frame_begin, mill_turn, rotary, solution, straight, tip_control, travel};
-use crate::control::{family, full_turn};
+use crate::control::full_turn;
+use crate::control::word_address::cycle;
 use crate::operation::{MotionKind, Target};
 use crate::post::Post;
 
@@ -17,7 +18,7 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
         active.initial = None;
         active.above = None;
         active.in_force = None;
-        family::cancel_cycle(&mut post.control)?;
+        cycle::cancel(&mut post.control)?;
     }
     if let (Some(from), false) = (post.path.point, matches!(kind, MotionKind::Rapid(_))) {
         post.path.sense.course.line(target.point - from)?;

@@ -14,17 +14,17 @@ use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::axis_chain::Rotary;
 use fil_machine::commons::{EMPTY, Kind};
-use fil_machine::locations::{self as loc, ControlFamily, MillTurnMode};
+use fil_machine::locations::{self as loc, MillTurnMode};
 use fil_machine::modes::FeedMode;
 use fil_machine::{FunctionCode, Letter, letters};
 use nalgebra::{Point3, Vector3};
 
 use super::{feed_rules, functions_of_others, position, rotary, thread};
 use crate::control::Control;
+use crate::control::full_turn;
 use crate::control::needs::Act;
 use crate::control::sinumerik::{reader, transformation};
 use crate::control::word_address::{modes, spindle};
-use crate::control::{family, full_turn};
 use crate::control_state::{ForeignBlock, Meaning, Rotation, Source, modal};
 use crate::errors::PostCode;
 use crate::operation::cycle::{CycleFeed, CycleKind};
@@ -50,7 +50,7 @@ pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
     control.begin()?;
     control.flush_waiting()?;
     if spindle::may_turn(control) {
-        family::write(control, Operation::Spindle(Spindle::Off))?;
+        control.family().write(control, Operation::Spindle(Spindle::Off))?;
     }
     let (mode, at) = match mills {
         true => (MillTurnMode::Milling, loc::MILL_TURN_MILLING_CODE),
@@ -316,7 +316,7 @@ fn refuse_modes_of_others(control: &Control, operation: &Operation) -> Result<()
         _ => false,
     };
     let found = match operation {
-        Operation::Text(blocks) if control.tables.family == ControlFamily::Sinumerik => {
+        Operation::Text(blocks) if control.can().mode_statements => {
             let milling = control.code_if_any(loc::MILL_TURN_MILLING_CODE);
             let milling = milling.map(|code| format!("M{}", code.value()));
             let is_milling = |item: &String| Some(item) == milling.as_ref();

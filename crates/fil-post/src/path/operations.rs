@@ -2,11 +2,11 @@
 
 use super::{
     arc, compensation_side, counted_spindle, frame, frame_end, hole, index, linear,
-    machine_position, mill_turn, position, rotary, skip, thread, tip_control, tool_change,
-    whole_thread,
+    machine_position, mill_turn, position, rotary, skip, tip_control, tool_change, whole_thread,
 };
+use crate::control::needs::Act;
 use crate::control::word_address::motion;
-use crate::control::{family, full_turn, length_plane};
+use crate::control::{full_turn, length_plane};
 use crate::control_state::modal;
 use crate::operation::Operation;
 use crate::post::Post;
@@ -44,7 +44,7 @@ type Before = fn(&mut Post, &Operation) -> Result<()>;
 /// ends, out of which the tool goes up along itself first; then a mill-turn machine leaves its planes
 /// of lengths; what an author's function may not change is what is in force then.
 const BEFORE: [Before; 7] = [
-    |post, _| thread::refuse_awaited(post),
+    |post, _| post.require(Act::Word),
     tip_control::before,
     frame_end::go_up,
     |post, operation| frame::before(&mut post.control, operation),
@@ -103,6 +103,6 @@ fn write_other(post: &mut Post, operation: Operation) -> Result<()> {
         Operation::Hole(target) => hole::carry_out(post, target),
         Operation::Thread(thread) => whole_thread::carry_out(post, &thread),
         Operation::ToolChange(change) => tool_change::change(post, change),
-        other => family::write(&mut post.control, other),
+        other => post.control.family().write(&mut post.control, other),
     }
 }

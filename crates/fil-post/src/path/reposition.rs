@@ -435,12 +435,12 @@ pub(super) fn stop_around(post: &mut Post, plan: &Plan) -> Result<Restart> {
     }
     let coolant = control.coolant;
     if ends && coolant.is_some() {
-        family::write(control, Operation::Coolant(Coolant::Off))?;
+        control.family().write(control, Operation::Coolant(Coolant::Off))?;
     }
     let coolant = coolant.filter(|_| if ends { flows_again } else { halts });
     for (asked, stop) in [(optional, Stop::Optional), (always, Stop::Always)] {
         if asked {
-            family::write(control, Operation::Stop(stop))?;
+            control.family().write(control, Operation::Stop(stop))?;
         }
     }
     Ok(Restart { spindle, coolant })

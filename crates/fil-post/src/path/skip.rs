@@ -8,7 +8,7 @@ use fil_diag::Result;
 use fil_machine::letters;
 
 use super::state::Said;
-use crate::control::{Control, family};
+use crate::control::Control;
 use crate::operation::{Operation, Spindle};
 use crate::post::Post;
 
@@ -59,7 +59,7 @@ fn again(control: &mut Control, operation: Operation) -> Result<()> {
         }
         other => other,
     };
-    family::write(control, operation)
+    control.family().write(control, operation)
 }
 
 impl Said {

@@ -4,6 +4,7 @@ use fil_diag::Result;
 use fil_machine::locations::{self as loc, ThreadLeadAlong};
 use nalgebra::Point3;
 
+use crate::control::needs::Act;
 use crate::control::word_address::spindle::{self, counted};
 use crate::control_state::Place;
 use crate::errors::PostCode;
@@ -16,19 +17,6 @@ pub const AXES: [usize; 2] = [0, 2];
 /// Lengths below this count as zero, mm or inch.
 pub(super) const NOTHING: f64 = 1e-6;
 
-/// Refuses what comes between OP/THREAD and its two points.
-///
-/// # Errors
-/// One of them is missing.
-pub fn refuse_awaited(post: &Post) -> Result<()> {
-    match &post.path.thread.awaited {
-        Some(awaited) if !awaited.is_cut => {
-            PostCode::Thread.err("two GOTO must follow OP/THREAD with DEPTH and CUTS at once")
-        }
-        _ => Ok(()),
-    }
-}
-
 /// The point of the CL file at which the tool stands: a thread begins from there, on the side
 /// where that lies. `None` where a tool change, a frame, FROM or a text came between.
 pub fn stands_at(post: &Post) -> Option<Point3<f64>> {
@@ -39,9 +27,9 @@ pub fn stands_at(post: &Post) -> Option<Point3<f64>> {
 /// Ends a thread.
 ///
 /// # Errors
-/// As [`refuse_awaited`].
+/// It waits for one of its points.
 pub fn end(post: &mut Post) -> Result<()> {
-    refuse_awaited(post)?;
+    post.require(Act::Word)?;
     post.path.thread.passes = None;
     post.path.thread.awaited = None;
     Ok(())

@@ -11,7 +11,7 @@ use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::axis_chain::Carries;
 use fil_machine::commons::EMPTY;
-use fil_machine::locations::{self as loc, ControlFamily, RotaryTipControl};
+use fil_machine::locations::{self as loc, RotaryTipControl};
 use nalgebra::{Point3, Vector3};
 
 use super::height::{pose, slides};
@@ -19,6 +19,7 @@ use super::pole::spelled;
 use super::position::Solution;
 use super::{frame, frame_end, position, rapid, tip, turned_apart};
 use crate::control::needs::Act;
+use crate::control::word_address::cycle;
 use crate::control::{Control, Function};
 use crate::control::{family, machine_frame, vectors};
 use crate::control_state::{Compensation, Meaning, modal};
@@ -73,7 +74,7 @@ pub(super) fn position_of(
 pub(super) fn say_by_vector(post: &mut Post, at_feed: bool) {
     let tables = &post.control.tables;
     post.control.tip.by_vector =
-        tables.tip_vectors && (at_feed || !vectors::takes_angles_too(tables.family));
+        tables.tip_vectors && (at_feed || !post.control.can().angles_beside_vectors);
 }
 
 /// True where the control brings the tool along a direction by these positions of the rotary axes;
@@ -88,7 +89,7 @@ fn takes_vector(post: &Post, angles: [f64; 2], axis: Vector3<f64>) -> Result<boo
     if vectors::stand_known(&post.control) && vectors::say_the_same(&solutions, stands, angles) {
         return Ok(true);
     }
-    if vectors::takes_angles_too(tables.family) {
+    if post.control.can().angles_beside_vectors {
         return Ok(false);
     }
     let message = format!(
@@ -110,7 +111,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     control.begin()?;
     control.require_unit()?;
     control.require(Act::TcpOn)?;
-    family::cancel_cycle(control)?;
+    cycle::cancel(control)?;
     let in_doubt = control.state.get(modal::TCP).is_none();
     let length_is_called = std::mem::take(&mut control.tip.length_is_called);
     let comes_down = length_is_called && !in_doubt;
@@ -120,7 +121,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     let control = &mut post.control;
     control.ready_tip_length()?;
     let of_tool = control.tip.offset;
-    if of_tool.is_none() && control.tables.family == ControlFamily::WordAddress {
+    if of_tool.is_none() && control.can().length_functions {
         return PostCode::TipControl
             .err("tool-tip control takes up the length of a tool, and no LOADTL came before");
     }
@@ -139,7 +140,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     if in_doubt || length_is_called {
         family::end_tip_control(control)?;
     }
-    family::begin_tip_control(control, of_tool)?;
+    control.family().begin_tip_control(control, of_tool)?;
     control.tip.is_away = false;
     control.tip.leans = stands;
     names_tip(control, stands)
@@ -246,7 +247,7 @@ fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
 /// True where tool-tip control may be on, and the program can't say where the tool stands behind
 /// its end.
 pub(super) fn ends_elsewhere(control: &Control) -> bool {
-    control.may_name_tip() && control.tables.family == ControlFamily::WordAddress
+    control.may_name_tip() && control.can().length_functions
 }
 
 /// Ends tool-tip control where it may be on; what goes to a position of the machine next
@@ -258,7 +259,7 @@ pub fn end(control: &mut Control) -> Result<()> {
     if !control.may_name_tip() {
         return Ok(());
     }
-    let goes_up = control.tables.family == ControlFamily::WordAddress && go_up(control)?;
+    let goes_up = control.can().length_functions && go_up(control)?;
     let slides = if goes_up { None } else { slides(control) };
     family::end_tip_control(control)?;
     for number in AxisSet::LINEAR.numbers() {
@@ -272,7 +273,7 @@ pub fn end(control: &mut Control) -> Result<()> {
             None => control.state.loses_by_post(axis.letter),
         }
     }
-    if control.tables.family == ControlFamily::WordAddress {
+    if control.can().length_functions {
         control.await_length(control.tip.offset);
     }
     Ok(())

@@ -6,11 +6,10 @@ use nalgebra::{Point3, Vector3};
 
 use super::expand::{WayOut, settle_way_out};
 use super::{Since, linear, tip_control};
-use crate::control::family;
 use crate::control::word_address::spindle;
 use crate::errors::PostCode;
 use crate::operation::cycle::{AboveHoles, Cycle, CycleFeed, CycleKind};
-use crate::operation::{Dwell, MotionKind, Target};
+use crate::operation::{Dwell, MotionKind, Operation, Target};
 use crate::post::Post;
 
 /// What helps where a level can't hold for two directions of the tool.
@@ -169,7 +168,8 @@ impl Moves<'_> {
         self.feed(bottom)?;
         if self.cycle.dwell > 0.0 {
             self.post.control.block.cause = self.cycle.due_to(self.cycle.words.dwell);
-            family::dwell(&mut self.post.control, Dwell::Seconds(self.cycle.dwell))?;
+            let dwell = Operation::Dwell(Dwell::Seconds(self.cycle.dwell));
+            self.post.control.family().write(&mut self.post.control, dwell)?;
             self.post.control.block.cause = self.cycle.cause;
         }
         match settle_way_out(&mut self.post.control, self.cycle)? {

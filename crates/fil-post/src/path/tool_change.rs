@@ -10,7 +10,6 @@ use fil_machine::user_blocks::{self, AroundChange, UserBlocks};
 use super::{frame, frame_end, rapid, rapid_lean, tip_control, turned_apart};
 use crate::cause::Cause;
 use crate::control::Control;
-use crate::control::family;
 use crate::control::machine_frame::{self, Before};
 use crate::control::word_address::tool;
 use crate::control_state::Place;
@@ -47,7 +46,7 @@ fn refuse_change_by_switch(control: &Control, tool: i64) -> Result<()> {
 /// that the tape refuses.
 pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     let control = &mut post.control;
-    family::take_own_offset(control, &mut wanted)?;
+    control.family().take_own_offset(control, &mut wanted)?;
     refuse_change_by_switch(control, wanted.tool)?;
     if !tool::prepare(control, &wanted)? {
         return Ok(());
@@ -65,11 +64,11 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     write_blocks(control, around[0])?;
     control.because(cause, |control| go_to_change_position(control, cause))?;
     control.tip.is_away = true;
-    family::change_tool(control, wanted)?;
+    control.family().change_tool(control, wanted)?;
     write_blocks(control, around[1])?;
     match wanted.next {
         NextTools::Some { other: Some(next) } if control.commons.read(loc::TOOL_PRESELECT) => {
-            family::write(control, Operation::SelectTool(next))
+            control.family().write(control, Operation::SelectTool(next))
         }
         _ => Ok(()),
     }

@@ -5,7 +5,7 @@
 use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::axis_chain::Carries;
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations::{self as loc};
 
 use super::{frame, rapid_lean};
 use crate::control::Control;
@@ -125,18 +125,14 @@ fn zero(control: &Control) -> Option<FunctionCode> {
 /// all heads stand at zero, or may lean away from.
 fn counts_length(control: &Control) -> bool {
     let chain = control.tables.chain();
-    match control.tables.family {
-        ControlFamily::WordAddress => {
-            let calls = control.commons.read(loc::TOOL_LENGTH_FROM_TOOL);
-            calls && control.code_if_any(loc::TOOL_LENGTH_CODE).is_some()
-        }
-        // A SINUMERIK counts it square to the plane in force.
-        ControlFamily::Sinumerik => {
-            let along = |plane: Plane| chain.tool[plane.normal()] >= 1.0 - PARALLEL;
-            chain.has_heads() || control.state.get(modal::PLANE).is_none_or(|plane| !along(plane))
-        }
-        ControlFamily::Klartext => true,
+    if control.can().length_functions {
+        let calls = control.commons.read(loc::TOOL_LENGTH_FROM_TOOL);
+        return calls && control.code_if_any(loc::TOOL_LENGTH_CODE).is_some();
     }
+    let along = |plane: Plane| chain.tool[plane.normal()] >= 1.0 - PARALLEL;
+    !control.can().lengths_by_plane
+        || chain.has_heads()
+        || control.state.get(modal::PLANE).is_none_or(|plane| !along(plane))
 }
 
 /// Warns of a length that the control counts across the tool.

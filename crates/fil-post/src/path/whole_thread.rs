@@ -7,7 +7,7 @@
 
 use super::{linear, rotary, scaled_lead, thread};
 use crate::control::needs::Act;
-use crate::control::{family, thread_cycle, word_address};
+use crate::control::{thread_cycle, word_address};
 use crate::errors::PostCode;
 use crate::operation::thread_shape::{Ends, Shape};
 use crate::operation::{MotionKind, Target, Thread};
@@ -43,7 +43,7 @@ fn cut(post: &mut Post, thread: &Thread, shape: &Shape) -> Result<()> {
     approach(post, shape, begin(0))?;
     for start in 0..thread.starts {
         to(post, begin(start), MotionKind::Rapid(thread.lead.cause))?;
-        if family::has_thread_cycle(&post.control, cycle) {
+        if post.control.family().has_thread_cycle(cycle) {
             by_cycle(post, thread, shape, cycle, start)?;
         } else {
             passes(post, thread, shape, start)?;
@@ -118,7 +118,7 @@ fn by_cycle(
     start: u32,
 ) -> Result<()> {
     let ends = ends_of(post, thread, shape, start)?;
-    family::thread_cycle(&mut post.control, thread, shape, cycle, &ends)?;
+    post.control.family().thread_cycle(&mut post.control, thread, shape, cycle, &ends)?;
     if cycle != ThreadCycle::CycleOfOnePass {
         return Ok(());
     }

@@ -3,8 +3,8 @@
 
 use fil_diag::Result;
 
+use crate::control::needs::Act;
 use crate::operation::Target;
-use crate::path::thread;
 use crate::post::Post;
 
 /// Takes the point as the start of an arc or of a GODLTA; nothing is written.
@@ -12,7 +12,7 @@ use crate::post::Post;
 /// # Errors
 /// Between the two points of a thread.
 pub fn handle(post: &mut Post, target: Target) -> Result<()> {
-    thread::refuse_awaited(post)?;
+    post.require(Act::Word)?;
     let path = &mut post.path;
     path.point = Some(target.point);
     path.axis.given = target.axis;

@@ -5,11 +5,11 @@ use fil_diag::Result;
 use nalgebra::Vector3;
 
 use super::{csys, goto};
+use crate::control::needs::Act;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::POINT;
 use crate::operation::Target;
-use crate::path::thread;
 use crate::post::Post;
 
 /// A way with less beside the tool axis than this share of it goes along that.
@@ -37,8 +37,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
              post has not seen",
         );
     }
-    goto::refuse_waiting_arc(post)?;
-    thread::refuse_awaited(post)?;
+    post.require(Act::OtherPoints)?;
     // The numbers of a motion stand from its word 6 on.
     items.skip(usize::from(POINT) - FIRST_DATA);
     let (step, word) = match items.numbers()[..] {

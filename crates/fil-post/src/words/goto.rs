@@ -6,12 +6,13 @@ use fil_machine::locations as loc;
 use nalgebra::{Point3, Vector3};
 
 use super::{csys, home};
+use crate::control::needs::Act;
 use crate::control::word_address::spindle;
 use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{MotionKind, Operation, Target};
-use crate::path::{Since, carry_out, linear, thread, thread_points};
+use crate::path::{Since, carry_out, linear, thread_points};
 use crate::post::Post;
 
 /// Levels nearer than this are one level, mm or inch.
@@ -153,22 +154,10 @@ pub fn gohome(post: &mut Post, items: &mut Items) -> Result<()> {
         _ => return Err(items.error("a point x, y, z is missing")),
     };
     items.deny_rest()?;
-    refuse_waiting_arc(post)?;
-    thread::refuse_awaited(post)?;
+    post.require(Act::OtherPoints)?;
     csys::settle(post, axis)?;
     let target = Target { point, axis, word: FIRST_DATA as u16 };
     straight(post, target)
-}
-
-/// Refuses a motion that is no GOTO while a CIRCLE waits for its end point.
-///
-/// # Errors
-/// One waits.
-pub fn refuse_waiting_arc(post: &Post) -> Result<()> {
-    if post.path.arc.is_some() {
-        return PostCode::ArcEnd.err("another motion came before the GOTO");
-    }
-    Ok(())
 }
 
 /// A tool axis may be this far from length 1, unless MULTAX is on.

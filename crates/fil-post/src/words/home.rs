@@ -4,7 +4,7 @@ use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 use fil_machine::locations as loc;
 
-use super::goto;
+use crate::control::needs::Act;
 use crate::items::Items;
 use crate::operation::Operation;
 use crate::path::{carry_out, height};
@@ -15,7 +15,7 @@ use crate::post::Post;
 /// # Errors
 /// A machine without one; a CIRCLE that waits for its end, and all that the motion refuses.
 pub fn gohome(post: &mut Post, items: &Items) -> Result<()> {
-    goto::refuse_waiting_arc(post)?;
+    post.require(Act::OtherMotion)?;
     let home = loc::HOME.map(|at| post.control.commons.dbl_opt(at));
     if home == [None; 3] {
         return Err(items.error("no point, and the machine has no home position (home.x, y, z)"));
@@ -41,7 +41,7 @@ pub fn retrct(post: &mut Post, items: &mut Items) -> Result<()> {
         ));
     };
     items.deny_rest()?;
-    goto::refuse_waiting_arc(post)?;
+    post.require(Act::OtherMotion)?;
     if height::is_above(&post.control, level)? {
         return Ok(());
     }

@@ -3,9 +3,10 @@
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 
+use crate::control::needs::Act;
 use crate::items::Items;
 use crate::operation::Operation;
-use crate::path::{carry_out, thread};
+use crate::path::carry_out;
 use crate::post::Post;
 
 /// Switches the block-delete character on or off.
@@ -18,7 +19,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         None => return Err(items.error("ON or OFF is needed")),
     };
     items.deny_rest()?;
-    thread::refuse_awaited(post)?;
+    post.require(Act::Word)?;
     if let Some(cycle) = &mut post.path.cycle {
         cycle.in_force = None;
     }

@@ -2,8 +2,8 @@
 
 use fil_diag::Result;
 
+use crate::control::needs::Act;
 use crate::items::Items;
-use crate::path::thread;
 use crate::post::Post;
 
 /// Marks the next motion.
@@ -12,7 +12,7 @@ use crate::post::Post;
 /// RAPID with items; RAPID between OP/THREAD and its points.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     items.deny_rest()?;
-    thread::refuse_awaited(post)?;
+    post.require(Act::Word)?;
     post.path.rapid = Some(post.control.block.cause);
     post.path.rapids += 1;
     Ok(())

@@ -2,7 +2,6 @@
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
-use fil_machine::locations::ControlFamily;
 
 use crate::errors::PostCode;
 use crate::items::Items;
@@ -24,7 +23,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if texts.is_empty() || !texts.len().is_multiple_of(2) {
         return Err(items.error("texts come in pairs, 'old','new'"));
     }
-    if post.control.tables.family == ControlFamily::Klartext {
+    if !post.control.can().edits_lines {
         return PostCode::Family.err("REPLAC: lines of Klartext are not edited");
     }
     for pair in texts.chunks_exact(2) {

@@ -10,7 +10,7 @@ use fil_machine::locations::{
     RotaryTableWords,
 };
 
-use super::goto;
+use crate::control::needs::Act;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::Operation;
@@ -45,7 +45,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
     let direction = items.any_of(&[w::CLW, w::CCLW]);
     let alone = items.numbers();
     items.deny_rest()?;
-    goto::refuse_waiting_arc(post)?;
+    post.require(Act::OtherMotion)?;
     let way = way(post, index, direction);
     let angle = match (on, to, &alone[..]) {
         (None, Some(angle), []) => by_way(post, index, angle, way, items)?,

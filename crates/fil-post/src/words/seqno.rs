@@ -3,7 +3,6 @@
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 use fil_machine::letters::N;
-use fil_machine::locations::ControlFamily;
 
 use crate::errors::PostCode;
 use crate::items::Items;
@@ -25,7 +24,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
             post.control.tape.switch_numbers(true);
         }
         Some(_) => post.control.tape.switch_numbers(false),
-        None if post.control.tables.family == ControlFamily::Klartext => {
+        None if post.control.can().numbers_lines => {
             let next = items.required("the number")?;
             let by = increment.map_or(String::new(), |increment| format!(" by {increment}"));
             let message =

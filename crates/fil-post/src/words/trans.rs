@@ -16,7 +16,7 @@ use crate::control::needs::Act;
 use crate::control::sinumerik::translation;
 use crate::errors::PostCode;
 use crate::items::Items;
-use crate::path::{Shift, Statement, Transformation, compensation_side, thread};
+use crate::path::{Shift, Statement, Transformation, compensation_side};
 use crate::post::Post;
 
 /// OPTION that leaves the tool axis alone.
@@ -28,7 +28,7 @@ const POINTS_ONLY: f64 = 10.0;
 /// Other than 3 or 12 numbers, an OPTION that is not known, a transformation between
 /// a CIRCLE and its end.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
-    refuse_on_arc(post, "TRANS")?;
+    post.require(Act::OtherPoints)?;
     let by_matrix = post.path.transformation.as_ref().map(|it| it.of);
     if post.path.shift == Shift::Origin || by_matrix.is_some_and(|of| of != Statement::Trans) {
         return Err(items.error("ORIGIN, TRACUT, ROTABL or a named frame moves the points already"));
@@ -98,7 +98,7 @@ pub fn origin(post: &mut Post, items: &mut Items) -> Result<bool> {
         InputOrigin::ZeroOfTheMachineInThePart => -1.0,
         InputOrigin::ZeroOfThePartOnTheMachine => 1.0,
     };
-    refuse_on_arc(post, "ORIGIN")?;
+    post.require(Act::OtherPoints)?;
     if post.path.is_moved_by(Statement::Table) {
         return Err(items.error("ROTABL moves the points already"));
     }
@@ -131,7 +131,7 @@ pub fn tracut(post: &mut Post, items: &mut Items) -> Result<bool> {
     if post.control.commons.read(loc::INPUT_TRACUT) == InputTracut::Refused {
         return Ok(false);
     }
-    refuse_on_arc(post, "TRACUT")?;
+    post.require(Act::OtherPoints)?;
     if post.path.transformation.is_some() && !post.path.is_moved_by(Statement::Tracut) {
         return Err(items.error("TRANS or a named frame moves the points already"));
     }
@@ -160,21 +160,13 @@ pub(super) fn csys(post: &mut Post, word: &str, moved: Option<Transformation>) -
     if moved.is_none() && !is_moved {
         return Ok(());
     }
-    refuse_on_arc(post, word)?;
+    post.require(Act::OtherPoints)?;
     let has_matrix = post.path.transformation.is_some() && !is_moved;
     if has_matrix || post.path.shift != Shift::None {
         return PostCode::OtherFrame
             .err(format!("{word}: TRANS, ORIGIN, TRACUT or ROTABL moves the points already"));
     }
     turn(post, moved)
-}
-
-fn refuse_on_arc(post: &Post, word: &str) -> Result<()> {
-    thread::refuse_awaited(post)?;
-    if post.path.arc.is_some() {
-        return PostCode::ArcEnd.err(format!("{word} came between a CIRCLE and its GOTO"));
-    }
-    Ok(())
 }
 
 fn translate(post: &mut Post, by: [f64; 3]) -> Result<()> {

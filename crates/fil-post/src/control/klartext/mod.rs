@@ -7,6 +7,7 @@
 
 pub mod cycle;
 mod datum;
+pub mod family;
 pub mod frame;
 pub mod helix;
 pub mod line;

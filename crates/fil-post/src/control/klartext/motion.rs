@@ -23,6 +23,9 @@ use crate::noted::TEXT;
 use crate::operation::Feed;
 use crate::operation::motion::{Motion, PlaneArc};
 
+/// The same in a line of Klartext.
+const MACHINE_LINE: FunctionCode = FunctionCode::whole(91);
+
 /// In a program in inches F counts tenths of an inch a minute.
 const TENTHS: f64 = 10.0;
 
@@ -51,11 +54,16 @@ pub fn rapid(control: &mut Control, motion: &Motion) -> Result<()> {
     Ok(())
 }
 
-/// Writes the words of the block as a line in rapid traverse.
+/// Writes the block under construction as a rapid motion to a position of the machine.
 ///
 /// # Errors
-/// As [`rapid`].
-pub fn write_rapid(control: &mut Control) -> Result<()> {
+/// As the line of a motion.
+pub fn to_machine_position(control: &mut Control) -> Result<()> {
+    control.m(MACHINE_LINE);
+    write_rapid(control)
+}
+
+fn write_rapid(control: &mut Control) -> Result<()> {
     control.klartext.phrase.head = Head::Line;
     control.klartext.phrase.rapid = true;
     write(control, AxisSet::NONE)

@@ -7,6 +7,7 @@
 
 pub mod block;
 pub mod cycle;
+pub mod family;
 mod frame;
 pub mod live_tap;
 pub mod program;

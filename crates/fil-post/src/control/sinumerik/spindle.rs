@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::letters::{F, S};
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations::{self as loc};
 use fil_machine::modes::FeedMode;
 
 use crate::control::Control;
@@ -72,9 +72,7 @@ pub fn choose_master(control: &mut Control, number: i32, is_side: bool) -> Resul
 
 /// G97 stands alone in a block, and is a feed a turn, too.
 pub fn counts_turns(control: &mut Control) {
-    if control.tables.family == ControlFamily::Sinumerik {
-        takes_feed_a_turn(control, Some(SpindleSpeed::Revolutions(0.0)));
-    }
+    takes_feed_a_turn(control, Some(SpindleSpeed::Revolutions(0.0)));
 }
 
 /// G96 and G97 are feeds a turn: they stand in one group with G94 and G95.

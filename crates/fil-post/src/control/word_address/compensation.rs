@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 use fil_machine::letters::T;
-use fil_machine::locations::{self as loc, ControlFamily, Placement, ToolFormat};
+use fil_machine::locations::{self as loc, Placement, ToolFormat};
 use fil_machine::modes::Plane;
 
 use super::modes;
@@ -39,7 +39,7 @@ pub fn write(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
     let code = control.code(at, "cutter compensation")?;
     control.block.cause.word = wanted.side_word;
     control.g(code);
-    let takes_offset = control.tables.family != ControlFamily::Sinumerik;
+    let takes_offset = !control.can().cutting_edges;
     if wanted.side != Compensation::Off && takes_offset {
         offset_word(control, wanted.offset)?;
     }

@@ -5,7 +5,7 @@ use fil_machine::FunctionCode;
 use fil_machine::axes::AxisSet;
 use fil_machine::letters::{F, R, S};
 use fil_machine::locations::{
-    self as loc, ControlFamily, CycleAxesModal, CycleDataModal, CycleDepthOutput, CycleReturnCodes,
+    self as loc, CycleAxesModal, CycleDataModal, CycleDepthOutput, CycleReturnCodes,
     DwellCycleModal, MillTurnSidePeck,
 };
 use fil_machine::modes::{FeedMode, Plane};
@@ -13,7 +13,7 @@ use fil_machine::rounding::Rounding;
 
 use super::motion;
 use super::{dwell, modes, spindle};
-use crate::control::{Control, length_plane, sinumerik, tap};
+use crate::control::{Control, length_plane, tap};
 use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
 use crate::operation::cycle::{Cycle, CycleFeed, CycleKind, Hole};
@@ -93,7 +93,7 @@ pub fn no_tap(control: &Control) -> &'static str {
             "the tapping cycle needs a plane in which the control counts the lengths of the tool along \
              other axes; tool.length_const says that they count alike in every plane (SD42940)"
         }
-        _ if control.tables.mills() && control.tables.family == ControlFamily::Sinumerik => {
+        _ if control.tables.mills() && control.can().cycle_calls => {
             "a live tool of a SINUMERIK taps where mill_turn.rigid_tap says that SPOS positions it"
         }
         _ => "the machine has no tapping cycle, and a tap can't be written as single moves",
@@ -281,19 +281,14 @@ pub fn cancel(control: &mut Control) -> Result<()> {
     if !control.state.is(modal::CYCLE, true) {
         return Ok(());
     }
-    leave(control)
+    control.family().leave_cycle(control)
 }
 
 /// Says that no canned cycle is in force.
 ///
 /// # Errors
 /// The machine has no such code.
-pub fn leave(control: &mut Control) -> Result<()> {
-    match control.tables.family {
-        ControlFamily::WordAddress => {}
-        ControlFamily::Sinumerik => return sinumerik::cycle::cancel(control),
-        ControlFamily::Klartext => return Ok(()),
-    }
+pub fn leave_by_code(control: &mut Control) -> Result<()> {
     let waiting = control.block.take();
     let code = control.code(loc::CYCLE_OFF_CODE, "CYCLE/OFF").map_err(|mut diag| {
         diag.hint = Some("Most controls end their cycles by G80: cycle.off_code = 80.".into());

@@ -4,7 +4,7 @@ use fil_diag::Result;
 use fil_machine::Letter;
 use fil_machine::commons::{Dbl, Int};
 use fil_machine::letters::S;
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations::{self as loc};
 use fil_machine::modes::{FeedMode, INCH};
 use fil_machine::number::NumberFormat;
 use fil_machine::rounding::Rounding;
@@ -97,8 +97,7 @@ pub fn cycle_word(control: &mut Control, seconds: f64, mode: FeedMode) -> Result
 /// a dwell in seconds needs a feed a minute; the next feed motion says its own mode again.
 fn leave_turns(control: &mut Control) -> Result<()> {
     // F of a SINUMERIK's G4 is seconds in any mode, and G94 would end a surface speed.
-    let is_sinumerik = control.tables.family == ControlFamily::Sinumerik;
-    if is_sinumerik || !waits_turns(control) {
+    if control.can().speed_modes_say_feed || !waits_turns(control) {
         return Ok(());
     }
     let code = control.code(loc::FEED_UPM_CODE, "a feed a minute")?;

@@ -6,6 +6,7 @@ pub mod compensation;
 pub(super) mod coolant;
 pub mod cycle;
 pub mod dwell;
+pub mod family;
 pub(super) mod fixture;
 pub mod frame;
 mod function;

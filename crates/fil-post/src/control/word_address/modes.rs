@@ -2,13 +2,13 @@
 //! to be in them.
 
 use fil_diag::Result;
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations::{self as loc};
 use fil_machine::modes::{Plane, Unit};
 use fil_machine::{FunctionCode, Letter};
 
 use crate::control::needs::Act;
 use crate::control::program::{plane_code, unit_code};
-use crate::control::{Control, Function, length_plane, sinumerik};
+use crate::control::{Control, Function, length_plane};
 use crate::control_state::{Compensation, Distance, Meaning, Source, functions, modal};
 use crate::errors::PostCode;
 
@@ -58,15 +58,14 @@ pub fn require(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
 fn say_again(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
     let waiting = control.block.take();
     let mut missing = Vec::new();
-    let sinumerik = control.tables.family == ControlFamily::Sinumerik;
     let in_cycle = !own.has_cycle() && !control.state.is(modal::CYCLE, false);
-    if in_cycle && sinumerik {
-        sinumerik::cycle::cancel(control)?;
+    if in_cycle && control.can().cycle_calls {
+        control.family().leave_cycle(control)?;
     } else if in_cycle && !say(control, control.code_if_any(loc::CYCLE_OFF_CODE)) {
         control.state.set(modal::CYCLE, false);
     }
     if !control.state.is(modal::DIAMETER_MODE, true) {
-        say_what_x_is(control, sinumerik)?;
+        say_what_x_is(control)?;
     }
     if !control.state.is(modal::UNITS, unit) {
         let wrong = control.state.get(modal::UNITS).is_some();
@@ -132,10 +131,9 @@ pub fn plane_of_turning(control: &mut Control) -> Result<()> {
 
 /// Says again that X is a diameter, on a control that counts radii too, and on a SINUMERIK the
 /// plane in which a lathe turns.
-fn say_what_x_is(control: &mut Control, sinumerik: bool) -> Result<()> {
+fn say_what_x_is(control: &mut Control) -> Result<()> {
     control.state.set(modal::DIAMETER_MODE, true);
-    if sinumerik {
-        sinumerik::transformation::say_what_x_is(control)?;
+    if control.family().says_diameters(control)? {
         if control.commons.read(loc::LATHE_DIAMETER) {
             // The lengths of a tool count along the axes of its plane.
             let usual = length_plane::usual_plane(control);

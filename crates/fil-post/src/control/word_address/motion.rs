@@ -6,7 +6,7 @@ mod leads;
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet};
 use fil_machine::letters::{F, H};
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations::{self as loc};
 use fil_machine::modes::Plane;
 use fil_machine::rounding::Rounding;
 use fil_machine::{FunctionCode, Letter};
@@ -136,8 +136,7 @@ pub fn pass_by(
     if !axis_words(control, motion)? {
         return Ok(());
     }
-    let of_sinumerik = control.tables.family == ControlFamily::Sinumerik;
-    if !of_sinumerik && words.iter().any(|(letter, _)| *letter == F) {
+    if !control.can().speed_modes_say_feed && words.iter().any(|(letter, _)| *letter == F) {
         lead_mode(control, cause)?;
     }
     motion_code(control, code, false, cause.whole());
@@ -366,7 +365,7 @@ fn warn_of_still_blocks(control: &mut Control) {
     let state = &control.state;
     let begun = state.compensates() && state.is(modal::CUTTER_PATH, CutterPath::Moved);
     let between = control.tape.count.saturating_sub(control.moved_in_plane_behind);
-    if begun && between > READ_OVER && control.tables.family == ControlFamily::WordAddress {
+    if begun && between > READ_OVER && control.can().plain_words {
         let message = format!("{between} blocks before this motion within cutter compensation");
         control.warnings.add(PostCode::StillBlocks, message);
     }

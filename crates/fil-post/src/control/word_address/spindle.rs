@@ -8,13 +8,13 @@ use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::commons::EMPTY;
 use fil_machine::letters::S;
-use fil_machine::locations::{self as loc, ControlFamily, Placement};
+use fil_machine::locations::{self as loc, Placement};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::CodeAt;
 
 use super::modes::{self, Own};
 use crate::control::needs::Act;
-use crate::control::{Control, Function, sinumerik};
+use crate::control::{Control, Function};
 use crate::control_state::{Rotation, modal};
 use crate::errors::PostCode;
 use crate::operation::{SideSpindle, Spindle, SpindleSpeed, SpindleTurn};
@@ -110,8 +110,8 @@ pub fn is_of_surface(control: &Control) -> bool {
 fn limit_block(control: &mut Control, limit: f64) -> Result<()> {
     control.begin()?;
     control.state.set(modal::SPEED_LIMIT, limit);
-    if control.tables.family == ControlFamily::Sinumerik {
-        return sinumerik::spindle::limit(control, limit);
+    if control.family().says_limit(control, limit)? {
+        return Ok(());
     }
     if control.commons.read(loc::SPINDLE_MAX_ADDRESS).is_some() {
         return limit_beside_surface_speed(control);

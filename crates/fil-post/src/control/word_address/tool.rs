@@ -4,13 +4,13 @@ use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::letters::T;
-use fil_machine::locations::{self as loc, ControlFamily, ToolFormat};
+use fil_machine::locations::{self as loc, ToolFormat};
 
 use super::compensation::OFFSETS;
 use super::motion::length_number;
 use super::{modes, motion};
+use crate::control::Control;
 use crate::control::needs::Act;
-use crate::control::{Control, sinumerik};
 use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
 use crate::operation::ToolChange;
@@ -30,8 +30,7 @@ pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
     control.require(Act::ToolChange)?;
     modes::before_length(control)?;
     let modal = control.commons.read(loc::TOOL_MODAL);
-    let is_edge = control.tables.family == ControlFamily::Sinumerik;
-    let offset = if is_edge { sinumerik::tool::edge_of(wanted) } else { wanted.offset };
+    let offset = control.family().offset_of(wanted);
     let stays =
         control.state.is(modal::TOOL, wanted.tool) && control.state.is(modal::TOOL_OFFSET, offset);
     Ok(!modal || !stays)
@@ -141,7 +140,7 @@ fn without_code(control: &mut Control, tool: i64) -> Result<()> {
         ));
     }
     // T of a SINUMERIK without a code changes the tool at once.
-    if !(calls && control.tables.family == ControlFamily::Sinumerik) {
+    if !(calls && control.can().cutting_edges) {
         control.warn_no_code("a tool change");
     }
     Ok(())

@@ -2,13 +2,13 @@
 
 use fil_diag::Result;
 use fil_machine::letters::F;
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations::{self as loc};
 use fil_machine::modes::FeedMode;
 use fil_machine::setting::CodeAt;
 
 use super::super::spindle::{self, counted};
+use crate::control::Control;
 use crate::control::needs;
-use crate::control::{Control, sinumerik};
 use crate::control_state::modal;
 use crate::errors::PostCode;
 use crate::operation::Feed;
@@ -62,8 +62,7 @@ fn say_feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
     if feed.mode == FeedMode::PerRevolution {
         refuse_standing(control)?;
     }
-    let of_sinumerik = control.tables.family == ControlFamily::Sinumerik;
-    if of_sinumerik && sinumerik::spindle::says_feed_mode(control, feed)? {
+    if control.family().says_feed_mode(control, feed)? {
         return Ok(());
     }
     let code = control.code(feed_mode_code(feed.mode), "this feed mode")?;

@@ -2,11 +2,11 @@
 //! those of one spindle, and a statement or a code says of which.
 
 use fil_diag::Result;
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations::{self as loc};
 
 use super::{code_of_turns, is_of_surface, may_turn};
+use crate::control::Control;
 use crate::control::needs::Act;
-use crate::control::{Control, sinumerik};
 use crate::control_state::{Rotation, Source, modal};
 use crate::errors::PostCode;
 use crate::operation::CountedSpindle;
@@ -24,7 +24,7 @@ pub fn has_own_codes(control: &Control) -> bool {
 
 /// A surface speed of the second spindle, and its limit, are its own: SETMS makes it so.
 pub fn may_hold_surface_speed(control: &Control) -> bool {
-    control.tables.family == ControlFamily::Sinumerik
+    control.can().mode_statements
 }
 
 /// Which spindle the control counts is not known.
@@ -79,7 +79,7 @@ fn end_surface_speed(control: &mut Control) -> Result<()> {
     if let Some(code) = code_of_turns(control) {
         control.g_of_record(code);
         control.write_block()?;
-        sinumerik::spindle::counts_turns(control);
+        control.family().counts_turns(control);
     }
     control.spindle.speed = None;
     Ok(())
@@ -87,7 +87,7 @@ fn end_surface_speed(control: &mut Control) -> Result<()> {
 
 fn write(control: &mut Control, is_side: bool) -> Result<()> {
     if let Some(number) = control.commons.int_opt(loc::SPINDLE_SIDE_NUMBER) {
-        return sinumerik::spindle::choose_master(control, number, is_side);
+        return control.family().choose_master(control, number, is_side);
     }
     let at = if is_side { loc::SPINDLE_SIDE_MASTER_CODE } else { loc::SPINDLE_MAIN_MASTER_CODE };
     let code = control.code(at, "the spindle that is counted")?;
@@ -117,7 +117,7 @@ pub fn check_tap(control: &Control, by_cycle: bool) -> Result<()> {
     if is_unknown(control) {
         return PostCode::CycleForm.err(WHICH);
     }
-    let knows = control.tables.family == ControlFamily::Sinumerik;
+    let knows = control.can().mode_statements;
     if control.spindle.is_side && by_cycle && !knows {
         return PostCode::CycleForm.err(
             "a tap of the second spindle by a cycle of the control: which spindle it turns back \
