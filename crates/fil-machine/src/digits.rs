@@ -11,16 +11,79 @@ const LIMIT: u64 = 100_000_000;
 static TENS: [u32; LANES + 1] =
     [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000];
 
+/// The eight digits of a number below 10^8, with zeros before it.
+#[derive(Clone, Copy)]
+pub struct Digits(u64);
+
+impl Digits {
+    /// How many there are.
+    pub const COUNT: usize = LANES;
+
+    /// Those of a number; `None` for one that has more.
+    #[inline]
+    pub fn of(number: u64) -> Option<Digits> {
+        (number < LIMIT).then(|| Digits(lanes(number as u32)))
+    }
+
+    /// How many zeros come before the first other digit; all eight in zero.
+    #[inline]
+    pub fn zeros_before(self) -> usize {
+        self.0.trailing_zeros() as usize / 8
+    }
+
+    /// How many digits there are up to the last that is no zero; none in zero.
+    #[inline]
+    pub fn up_to_last(self) -> usize {
+        LANES - self.0.leading_zeros() as usize / 8
+    }
+
+    /// Appends those from one on, at most seven, up to before another.
+    #[inline]
+    fn push(self, out: &mut Vec<u8>, from: usize, to: usize) {
+        push_lanes(out, self.0 >> (8 * from), to - from);
+    }
+}
+
+/// A word that is put together in one place: a vector is asked for room once.
+#[derive(Default)]
+pub struct Text {
+    bytes: [u8; 32],
+    length: usize,
+}
+
+impl Text {
+    /// Appends a character.
+    #[inline]
+    pub fn push(&mut self, character: u8) {
+        self.bytes[self.length] = character;
+        self.length += 1;
+    }
+
+    /// Appends digits from one on, at most seven, up to before another.
+    #[inline]
+    pub fn digits(&mut self, digits: Digits, from: usize, to: usize) {
+        let text = (digits.0 >> (8 * from)) | u64::from_le_bytes([b'0'; LANES]);
+        self.bytes[self.length..self.length + LANES].copy_from_slice(&text.to_le_bytes());
+        self.length += to - from;
+    }
+
+    /// Appends all of it to a vector.
+    #[inline]
+    pub fn append_to(&self, out: &mut Vec<u8>) {
+        let end = out.len() + self.length;
+        out.extend_from_slice(&self.bytes);
+        out.truncate(end);
+    }
+}
+
 /// Appends a number without zeros before it.
 #[inline]
 pub fn push_number(out: &mut Vec<u8>, number: u64) {
-    if number >= LIMIT {
-        return push_long(out, number);
+    match Digits::of(number) {
+        // Of a zero the last digit is written.
+        Some(digits) => digits.push(out, digits.zeros_before().min(LANES - 1), LANES),
+        None => push_long(out, number),
     }
-    let lanes = lanes(number as u32);
-    // Of a zero the last digit is written.
-    let skipped = (lanes.trailing_zeros() as usize / 8).min(LANES - 1);
-    push_lanes(out, lanes >> (8 * skipped), LANES - skipped);
 }
 
 #[cold]

@@ -7,7 +7,7 @@
 
 use fil_diag::{Diag, Result};
 
-use crate::digits::{push_fraction, push_number, push_padded};
+use crate::digits::{Digits, Text, push_fraction, push_number, push_padded};
 use crate::errors::MachineCode;
 use crate::locations::TapeDecimalRule;
 
@@ -197,24 +197,75 @@ impl NumberFormat {
     }
 
     /// Appends a scaled integer by the rules of the address.
-    #[inline]
     pub fn write(&self, scaled: i64, out: &mut Vec<u8>) {
+        self.write_after(Text::default(), scaled, out);
+    }
+
+    /// Appends a letter and a scaled integer by the rules of the address.
+    #[inline]
+    pub fn write_word(&self, letter: u8, scaled: i64, out: &mut Vec<u8>) {
+        let mut text = Text::default();
+        text.push(letter);
+        self.write_after(text, scaled, out);
+    }
+
+    /// Appends what is there of a word, and a scaled integer.
+    #[inline]
+    fn write_after(&self, mut text: Text, scaled: i64, out: &mut Vec<u8>) {
         if scaled < 0 {
-            out.push(b'-');
+            text.push(b'-');
         } else if self.plus {
-            out.push(b'+');
+            text.push(b'+');
         }
-        let power = LIMITS[usize::from(self.decimals)] as u64;
         let size = scaled.unsigned_abs();
-        if self.point {
-            self.write_with_point(size / power, (size % power) as u32, out);
-        } else {
-            self.write_plain(size, out);
+        let places = Digits::COUNT.checked_sub(usize::from(self.decimals));
+        match (Digits::of(size), places) {
+            (Some(digits), Some(places @ 1..)) if self.point => {
+                self.put_with_point(digits, places, &mut text);
+                text.append_to(out);
+            }
+            (Some(digits), _) if !self.point && !self.leading && !self.drop_whole_zeros => {
+                // Of a zero the last digit is written.
+                let first = digits.zeros_before().min(Digits::COUNT - 1);
+                text.digits(digits, first, Digits::COUNT);
+                text.append_to(out);
+            }
+            _ => {
+                text.append_to(out);
+                self.write_long(size, out);
+            }
         }
     }
 
-    /// The fraction has at most nine digits, as many as a format can name.
-    fn write_with_point(&self, whole: u64, fraction: u32, out: &mut Vec<u8>) {
+    /// Puts a number of eight digits, of which so many come before the point: it is parted where
+    /// its digits are, as a division takes longer than all the rest.
+    #[inline]
+    fn put_with_point(&self, digits: Digits, places: usize, text: &mut Text) {
+        let (first, last) = (digits.zeros_before(), digits.up_to_last());
+        let has_fraction = last > places;
+        if first < places || self.leading || !has_fraction {
+            text.digits(digits, first.min(places - 1), places);
+        }
+        let has_digits = has_fraction || self.trailing && self.decimals != 0;
+        if has_digits || self.rule != TapeDecimalRule::PointOnlyIfNeeded {
+            text.push(b'.');
+        }
+        if has_digits {
+            text.digits(digits, places, if self.trailing { Digits::COUNT } else { last });
+        } else if self.rule == TapeDecimalRule::AtLeastOneDigitAfterThePoint {
+            text.push(b'0');
+        }
+    }
+
+    /// Writes a number of more digits, or one by rarer rules.
+    #[cold]
+    fn write_long(&self, size: u64, out: &mut Vec<u8>) {
+        if !self.point {
+            return self.write_plain(size, out);
+        }
+        // The fraction has at most nine digits, as many as a format can name.
+        let power = LIMITS[usize::from(self.decimals)] as u64;
+        let (whole, fraction) = (size / power, (size % power) as u32);
         if whole != 0 || self.leading || fraction == 0 {
             push_number(out, whole);
         }
@@ -319,6 +370,20 @@ mod tests {
     }
 
     proptest::proptest! {
+        #[test]
+        fn short_and_long_numbers_are_written_alike(
+            size in 0u64..100_000_000, shift in 0u32..9, decimals in 0u8..8,
+            leading: bool, trailing: bool, point: bool, rule in 0..3
+        ) {
+            let rule = [TapeDecimalRule::AsTheAddressSays, TapeDecimalRule::PointOnlyIfNeeded, TapeDecimalRule::AtLeastOneDigitAfterThePoint][rule as usize];
+            let size = size / 10u64.pow(shift);
+            let format = NumberFormat { decimals, leading, trailing, point, rule, ..NumberFormat::default() };
+            let (mut short, mut long) = (Vec::new(), Vec::new());
+            format.write(size as i64, &mut short);
+            format.write_long(size, &mut long);
+            proptest::prop_assert_eq!(short, long);
+        }
+
         #[test]
         fn rounding_agrees_with_the_standard_library(value in -1e18f64..1e18, scale in 0..20) {
             let value = value / libm::exp10(f64::from(scale));

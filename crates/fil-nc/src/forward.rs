@@ -99,8 +99,12 @@ impl Forward {
 
     /// Tip and axis of the tool where the axes stand.
     pub fn pose(&self, position: &Position) -> Pose {
-        let tip = self.frame_of(position).tip(position.linear);
-        Pose { tip, axis: self.axis(position.rotary) }
+        Pose { tip: self.tip(position), axis: self.axis(position.rotary) }
+    }
+
+    /// The tip in the part where the axes stand, mm.
+    pub fn tip(&self, position: &Position) -> Point3<f64> {
+        self.frame_of(position).tip(position.linear)
     }
 
     /// Where X, Y, Z of a position count from in the part.
@@ -122,7 +126,7 @@ impl Forward {
             return *position;
         }
         let stands = Position { tip_control, tilt, ..*position };
-        let linear = self.frame_of(&stands).linear(self.pose(position).tip);
+        let linear = self.frame_of(&stands).linear(self.tip(position));
         Position { linear, ..stands }
     }
 

@@ -247,11 +247,11 @@ impl Block {
     /// More digits than the address has, or a tenth where it writes whole numbers.
     #[inline]
     pub fn check_functions(&self, addresses: &Addresses) -> Result<()> {
+        if self.g.is_empty() && self.m.is_empty() {
+            return Ok(());
+        }
         for (letter, codes) in [(G, &self.g), (M, &self.m)] {
-            if codes.is_empty() {
-                continue;
-            }
-            if let Some(format) = addresses.format(letter) {
+            if let Some(format) = addresses.format(letter).filter(|_| !codes.is_empty()) {
                 codes.iter().try_for_each(|(code, _)| code.check(letter, format))?;
             }
         }
@@ -268,12 +268,11 @@ impl Block {
         mut note: impl FnMut(u8, usize, Cause),
     ) {
         let mut first = true;
-        let mut begin = |letter: Letter, character: u8, cause: Cause, out: &mut Vec<u8>| {
+        let mut begin = |letter: Letter, cause: Cause, out: &mut Vec<u8>| {
             if addresses.blank && !std::mem::replace(&mut first, false) {
                 out.push(b' ');
             }
             note(letter.byte(), out.len(), cause);
-            out.push(character);
         };
         for position in self.positions_and_functions(addresses) {
             let slot = addresses.slot(position);
@@ -283,14 +282,15 @@ impl Block {
                 M => &self.m,
                 _ => {
                     let scaled = self.scaled[position.index()];
-                    begin(letter, slot.character, self.causes[position.index()], out);
-                    slot.format.write(scaled, out);
+                    begin(letter, self.causes[position.index()], out);
+                    slot.format.write_word(slot.character, scaled, out);
                     commons.set_last_output(letter, slot.format.unscale(scaled));
                     continue;
                 }
             };
             for (code, cause) in codes {
-                begin(letter, slot.character, *cause, out);
+                begin(letter, *cause, out);
+                out.push(slot.character);
                 code.write(&slot.format, out);
                 commons.set_last_output(letter, code.value());
             }

@@ -39,6 +39,7 @@ impl Post {
     ///
     /// # Errors
     /// As [`Control::require`].
+    #[inline(always)]
     pub fn require(&self, act: Act) -> Result<()> {
         let part = Part {
             in_cycle: self.path.cycle.is_some(),

@@ -327,8 +327,7 @@ impl Tape {
         self.sequence.next = Some(number + increment);
         let scaled = slot.format.exact(number).map_err(|diag| named(diag, N))?;
         self.note(SEQUENCE, self.sequence.cause, block);
-        self.text.push(align.unwrap_or(slot.character));
-        slot.format.write(scaled, &mut self.text);
+        slot.format.write_word(align.unwrap_or(slot.character), scaled, &mut self.text);
         if tables.addresses.blank {
             self.text.push(b' ');
         }

@@ -41,6 +41,21 @@ fn an_arc_that_is_a_full_turn_or_none_is_not_followed() {
     assert_ne!(found("fanuc-mill", &[], &around(0.0, ""), &none), "");
 }
 
+/// A drill whose feed a turn is told by the minute keeps it no longer where somebody turns the
+/// spindle down.
+#[test]
+fn a_feed_a_turn_that_is_told_by_the_minute_is_found() {
+    let cl = format!(
+        "{TOOL}; CYCLE / DRILL, DEPTH, 12, MMPR, 0.05, CLEAR, 2; GOTO / 10, 10, 0; CYCLE / OFF"
+    );
+    let nc = |mode: &str, feed: &str| {
+        format!("{FANUC}; {mode}G99 G81 X10. Y10. Z-12. R2. F{feed}; G80; M30; %")
+    };
+    assert_eq!(found("fanuc-mill", &[], &cl, &nc("G95 ", ".05")), "");
+    let said = found("fanuc-mill", &[], &cl, &nc("", "150."));
+    assert!(said.contains("feed 150 mm/min, it should be 0.05 mm a turn"), "{said}");
+}
+
 /// G81, G83, G85 and G86 pass over P.
 #[test]
 fn a_dwell_in_a_cycle_that_takes_none_is_found() {

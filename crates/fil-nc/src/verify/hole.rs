@@ -190,7 +190,7 @@ impl<C: Steps> Verifier<'_, C> {
             {
                 return Err((found.line, format!("{} in a hole", self.spell_move(&found))));
             }
-            self.check_rate(cl_line, before, &found, self.rate_of_hole(hole));
+            self.check_rate_of_hole(cl_line, before, &found, hole);
             reached = Some(found.to.linear[2]);
         }
         self.bottom_dwell(cl_line, hole)?;

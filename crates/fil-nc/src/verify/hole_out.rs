@@ -44,7 +44,7 @@ impl<C: Steps> Verifier<'_, C> {
             return Err((first.line, format!("{} out of the hole", self.spell_move(&first))));
         }
         if matches!(first.course, Course::Feed | Course::Thread) {
-            self.check_rate(cl_line, self.at, &first, self.rate_of_hole(hole));
+            self.check_rate_of_hole(cl_line, self.at, &first, hole);
         }
         let spindle = match out {
             _ if stands => Spindle::Off,

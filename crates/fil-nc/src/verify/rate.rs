@@ -1,6 +1,7 @@
 //! The feed of a motion.
 
-use nalgebra::Vector3;
+use fil_machine::cycle_kind::CycleKind;
+use nalgebra::{Point3, Vector3};
 
 use super::ahead::Steps;
 use super::expected_step::Hole;
@@ -52,14 +53,6 @@ impl<C: Steps> Verifier<'_, C> {
                 let slack = self.slack_of_lead(found, a);
                 (a - b).abs() <= slack && (gains - others).abs() <= slack
             }
-            // In a cycle the same feed may be told by the minute, at the speed of the spindle: that
-            // of a tap, and of a control whose cycles know no other.
-            (Rate::PerTurn(a), Some(Rate::PerMinute(b)))
-                if self.settings.feeds_holes_a_minute() || found.in_cycle =>
-            {
-                let agrees = |speed: f64| (a * speed - b).abs() <= self.slack.of(Quantity::Feed);
-                found.modes.spindle.speed.and_then(Speed::turns).is_some_and(agrees)
-            }
             (Rate::PerMinute(rate), Some(Rate::Inverse(inverse))) => {
                 return self.check_time(cl_line, (from, found), rate, inverse);
             }
@@ -76,8 +69,37 @@ impl<C: Steps> Verifier<'_, C> {
         }
     }
 
+    /// Compares the feed of a motion in a hole from a position.
+    pub(super) fn check_rate_of_hole(
+        &mut self,
+        cl_line: u32,
+        from: Position,
+        found: &Move,
+        hole: &Hole,
+    ) {
+        let wanted = self.rate_of_hole(hole);
+        if !self.is_told_by_the_minute(hole, found, wanted) {
+            self.check_rate(cl_line, from, found, wanted);
+        }
+    }
+
+    /// A feed a turn may be told by the minute, at the speed of the spindle: that of a tap, that of
+    /// a live tool, whose turns the control may not count, and that of a control whose cycles know
+    /// no other. A drill would keep its feed a turn no longer where somebody turns the speed down.
+    fn is_told_by_the_minute(&self, hole: &Hole, found: &Move, wanted: Option<Rate>) -> bool {
+        let (Some(Rate::PerTurn(turn)), Some(Rate::PerMinute(minute))) = (wanted, found.rate)
+        else {
+            return false;
+        };
+        let is_live = self.settings.is_mill_turn() && self.expected.mills();
+        let may_be = self.settings.feeds_holes_a_minute()
+            || found.in_cycle && (hole.kind == CycleKind::Tap || is_live);
+        let agrees = |speed: f64| (turn * speed - minute).abs() <= self.slack.of(Quantity::Feed);
+        may_be && found.modes.spindle.speed.and_then(Speed::turns).is_some_and(agrees)
+    }
+
     /// The feed of a hole: CYCLE brings it within that of Z, along which cycles go.
-    pub(super) fn rate_of_hole(&self, hole: &Hole) -> Option<Rate> {
+    fn rate_of_hole(&self, hole: &Hole) -> Option<Rate> {
         hole.rate.map(|rate| match rate {
             Rate::PerMinute(rate) => {
                 let rate = self.settings.feed_within(rate, self.limits.metric);
@@ -200,7 +222,7 @@ impl<C: Steps> Verifier<'_, C> {
         rate: f64,
         inverse: f64,
     ) {
-        let [straight, way] = self.lengths(from, found);
+        let straight = self.straight_length(from, found);
         let slack = self.slack.of(Quantity::InverseTime);
         let turned = turned(&from, found);
         let alone = from.linear == found.to.linear;
@@ -219,6 +241,11 @@ impl<C: Steps> Verifier<'_, C> {
             let [low, high] = inverses;
             (0..2).any(|n| inverse >= low[n] - slack && inverse <= high[n] + slack)
         };
+        // The way is at least as long, and takes long to measure: most motions need it not.
+        if straight >= STANDS && agrees(straight) {
+            return;
+        }
+        let way = self.way_length(from, found).max(straight);
         if way < STANDS {
             return self.check_turn(cl_line, (&from, found), turned, inverse);
         }
@@ -305,29 +332,39 @@ impl<C: Steps> Verifier<'_, C> {
         let Some(counted) = self.settings.counted_way(&from, &found.to, self.limits.metric) else {
             return false;
         };
-        self.lengths(from, found).into_iter().any(|way| {
+        let says = |way: f64| {
             let time =
                 self.settings.turning_time(way / rate, turned, from.linear == found.to.linear);
             let expected = self.settings.feed_within(counted / time, self.limits.metric);
             (feed - expected).abs() <= self.slack.of(Quantity::Feed)
-        })
+        };
+        let straight = self.straight_length(from, found);
+        says(straight) || says(self.way_length(from, found).max(straight))
     }
 
-    /// How far the tip goes in the part, mm: straight, or along an arc of the program; and
-    /// as the axes lead it.
-    fn lengths(&self, from: Position, found: &Move) -> [f64; 2] {
-        let forward = &self.settings.forward;
-        let arc = found.arc.as_ref();
-        let tip = |step: u32| {
-            let share = f64::from(step) / f64::from(STEPS);
-            forward.pose(&forward.along(&from, &found.to, arc, share)).tip
-        };
-        let straight = match arc {
+    /// How far the tip goes in the part straight, or along an arc of the program, mm.
+    fn straight_length(&self, from: Position, found: &Move) -> f64 {
+        match &found.arc {
             Some(arc) if !self.settings.takes_chords() => arc.length(from.linear, found.to.linear),
-            _ => (tip(STEPS) - tip(0)).norm(),
+            _ => (self.tip_after(&from, found, STEPS) - self.tip_after(&from, found, 0)).norm(),
+        }
+    }
+
+    /// How far the tip goes in the part as the axes lead it, mm.
+    fn way_length(&self, from: Position, found: &Move) -> f64 {
+        let mut last = self.tip_after(&from, found, 0);
+        let step = |step: u32| {
+            let tip = self.tip_after(&from, found, step);
+            (tip - std::mem::replace(&mut last, tip)).norm()
         };
-        let way: f64 = (0..STEPS).map(|step| (tip(step + 1) - tip(step)).norm()).sum();
-        [straight, way.max(straight)]
+        (1..=STEPS).map(step).sum()
+    }
+
+    /// Where the tip is in the part behind so many of the steps of a motion.
+    fn tip_after(&self, from: &Position, found: &Move, step: u32) -> Point3<f64> {
+        let forward = &self.settings.forward;
+        let share = f64::from(step) / f64::from(STEPS);
+        forward.tip(&forward.along(from, &found.to, found.arc.as_ref(), share))
     }
 }
 

@@ -41,7 +41,7 @@ fn of_tool(control: &Control) -> Plane {
 }
 
 /// True where a motion would be made in another plane than it needs, or may be.
-#[inline]
+#[inline(always)]
 pub fn is_left(control: &Control) -> bool {
     control.can().lengths_by_plane
         && of_motions(control).is_some_and(|plane| may_be_another(control, plane))

@@ -121,7 +121,7 @@ impl ControlState {
     }
 
     /// The value of a modal group, if it is known.
-    #[inline]
+    #[inline(always)]
     pub fn get<T: Modal>(&self, of: Of<T>) -> Option<T> {
         self.groups.get(of)
     }

@@ -158,6 +158,9 @@ macro_rules! groups {
             $($(#[doc = $doc])+ $group,)*
         }
 
+        /// All groups, in their order.
+        const GROUPS: [Group; COUNT] = [$(Group::$group),*];
+
         /// Number of groups.
         const COUNT: usize = [$(Group::$group),*].len();
 
@@ -252,6 +255,47 @@ groups! {
     PROGRAM_END / ProgramEnd: bool = OFF, Kept;
 }
 
+/// True for a value of a group beside which motions have nothing to say or to refuse.
+#[inline]
+fn is_usual(group: Group, value: Value) -> bool {
+    use Group::{
+        AxisClamp, CutterComp, CutterPath as Path, Cycle, DiameterMode, Distance as Counts,
+        PlaneIsTemporary, ProgramEnd, Spindle, SpindleHalted, Tool,
+    };
+    match (group, value) {
+        (Counts, Value::Distance(distance)) => distance == Distance::Absolute,
+        (DiameterMode, Value::Flag(on)) => on,
+        (PlaneIsTemporary | Cycle | AxisClamp | SpindleHalted | ProgramEnd, Value::Flag(on)) => !on,
+        (CutterComp, Value::Compensation(side)) => side == Compensation::Off,
+        (Path, Value::CutterPath(path)) => path != CutterPath::Leaving,
+        (Spindle, Value::Rotation(rotation)) => rotation != Rotation::Standing,
+        (Tool, Value::Number(_)) => true,
+        _ => false,
+    }
+}
+
+/// A set of groups.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct GroupSet(u64);
+
+impl GroupSet {
+    /// Of some groups.
+    pub const fn of(groups: &[Group]) -> Self {
+        let mut set = 0;
+        let mut at = 0;
+        while at < groups.len() {
+            set |= 1 << groups[at] as u32;
+            at += 1;
+        }
+        GroupSet(set)
+    }
+
+    #[inline]
+    fn put(&mut self, group: usize, is_in: bool) {
+        self.0 = self.0 & !(1 << group) | u64::from(is_in) << group;
+    }
+}
+
 /// A tool that depends on block delete is one until a tool change.
 fn either_stays(before: Know<Value>) -> Know<Value> {
     match before {
@@ -288,6 +332,8 @@ struct Cell {
 #[derive(Clone, Debug)]
 pub struct Groups {
     cells: [Cell; COUNT],
+    /// Those that are known to be as motions need them.
+    usual: GroupSet,
     /// Counts the writes, so that two groups can be told apart by which was written last.
     writes: u32,
     /// That count when the last block of an author began.
@@ -298,11 +344,29 @@ impl Groups {
     /// As a program starts.
     pub fn at_start() -> Self {
         let cells = ROWS.map(|row| Cell { know: row.start, written: 0 });
-        Groups { cells, writes: 0, before_foreign: 0 }
+        let usual = GroupSet::default();
+        let mut groups = Groups { cells, usual, writes: 0, before_foreign: 0 };
+        GROUPS.into_iter().for_each(|group| groups.know_now(group, ROWS[group as usize].start));
+        groups
+    }
+
+    /// What is known of a group from here on; it counts as no write.
+    #[inline]
+    fn know_now(&mut self, group: Group, know: Know<Value>) {
+        self.cells[group as usize].know = know;
+        let usual = matches!(know, Know::Known(value) if is_usual(group, value));
+        self.usual.put(group as usize, usual);
+    }
+
+    /// True if all of these are known to be as motions need them. One test for all: it comes
+    /// several times with each motion. If not, each is to be looked at.
+    #[inline]
+    pub fn are_usual(&self, groups: GroupSet) -> bool {
+        self.usual.0 & groups.0 == groups.0
     }
 
     /// The value of a group, if it is known.
-    #[inline]
+    #[inline(always)]
     pub fn get<T: Modal>(&self, of: Of<T>) -> Option<T> {
         match self.cells[of.group as usize].know {
             Know::Known(value) => T::of(value),
@@ -367,21 +431,22 @@ impl Groups {
 
     /// A block that can't be read may have changed a group.
     pub fn doubt<T>(&mut self, of: Of<T>) {
-        let cell = &mut self.cells[of.group as usize];
-        cell.know = unread(of.group as usize, cell.know, Source::Author);
+        let before = self.cells[of.group as usize].know;
+        self.know_now(of.group, unread(of.group, before, Source::Author));
     }
 
     /// What is known of a group from here on.
     #[inline]
     pub fn write(&mut self, group: Group, know: Know<Value>) {
         self.writes += 1;
-        self.cells[group as usize] = Cell { know, written: self.writes };
+        self.cells[group as usize].written = self.writes;
+        self.know_now(group, know);
     }
 
     /// A block that can't be read may have changed all groups.
     pub fn doubt_all(&mut self, source: Source) {
-        for (at, cell) in self.cells.iter_mut().enumerate() {
-            cell.know = unread(at, cell.know, source);
+        for group in GROUPS {
+            self.know_now(group, unread(group, self.cells[group as usize].know, source));
         }
     }
 
@@ -406,8 +471,9 @@ impl Groups {
         let offsets =
             |it: &Groups| (it.get(TOOL_OFFSET), it.get(LENGTH_OFFSET), it.written(LENGTH_WORD));
         let tool_differs = tool[0] != tool[1] || offsets(self) != offsets(skipped);
-        for (cell, other) in self.cells.iter_mut().zip(&skipped.cells) {
-            cell.know = match (cell.know, other.know) {
+        for group in GROUPS {
+            let [own, other] = [&*self, skipped].map(|it| it.cells[group as usize].know);
+            let know = match (own, other) {
                 (Know::Known(Value::Rotation(one)), Know::Known(Value::Rotation(other))) => {
                     Know::Known(one.or(other).value())
                 }
@@ -416,17 +482,17 @@ impl Groups {
                 }
                 (one, other) => one.join(other),
             };
+            self.know_now(group, know);
         }
         if tool_differs {
             // A tool with another offset is another one.
-            self.cells[Group::Tool as usize].know =
-                Know::Either(tool.map(|tool| tool.map(Value::Number)));
+            self.know_now(Group::Tool, Know::Either(tool.map(|tool| tool.map(Value::Number))));
         }
     }
 }
 
-fn unread(at: usize, know: Know<Value>, source: Source) -> Know<Value> {
-    match ROWS[at].unread {
+fn unread(group: Group, know: Know<Value>, source: Source) -> Know<Value> {
+    match ROWS[group as usize].unread {
         Unknown => Know::Unknown(source),
         Kept => know,
         By(rule) => rule(know),
@@ -472,6 +538,25 @@ mod tests {
         assert_eq!(groups.get(TOOL), Some(3));
         groups.doubt(TOOL);
         assert!(groups.depends_on_block_delete(TOOL));
+    }
+
+    #[test]
+    fn a_group_is_usual_by_what_is_known_of_it_last() {
+        let set = GroupSet::of(&[Group::Distance, Group::CutterComp]);
+        let mut groups = Groups::at_start();
+        assert!(groups.are_usual(set));
+        groups.set(CUTTER_COMP, Compensation::Left);
+        assert!(!groups.are_usual(set));
+        let skipped = Groups::at_start();
+        groups.join(&skipped);
+        assert!(!groups.are_usual(set), "it depends on block delete");
+        groups.set(CUTTER_COMP, Compensation::Off);
+        assert!(groups.are_usual(set));
+        groups.doubt(DISTANCE);
+        assert!(!groups.are_usual(set));
+        groups.set(DISTANCE, Distance::Absolute);
+        groups.doubt_all(Source::Author);
+        assert!(!groups.are_usual(set));
     }
 
     #[test]

@@ -8,7 +8,8 @@ use nalgebra::{Point3, Vector3};
 use super::{csys, home};
 use crate::control::needs::Act;
 use crate::control::word_address::spindle;
-use crate::control_state::{Rotation, modal};
+use crate::control_state::Rotation;
+use crate::control_state::modal::{self, Group, GroupSet};
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{MotionKind, Operation, Target};
@@ -102,6 +103,16 @@ pub fn straight(post: &mut Post, target: Target) -> Result<()> {
 /// A lathe feeds so to pull bar and to part off.
 #[inline]
 fn warn_of_standing_spindle(post: &mut Post) {
+    if !post.control.state.groups().are_usual(OF_SPINDLE) {
+        warn_if_it_stands(post);
+    }
+}
+
+/// What may stop a spindle.
+const OF_SPINDLE: GroupSet = GroupSet::of(&[Group::Spindle, Group::SpindleHalted]);
+
+#[cold]
+fn warn_if_it_stands(post: &mut Post) {
     if post.control.state.rotation() == Rotation::Standing {
         warn_where_it_mills(post);
     } else if post.control.state.may_be(modal::SPINDLE_HALTED, true) {

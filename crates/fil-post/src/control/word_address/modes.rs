@@ -9,7 +9,8 @@ use fil_machine::{FunctionCode, Letter};
 use crate::control::needs::Act;
 use crate::control::program::{plane_code, unit_code};
 use crate::control::{Control, Function, length_plane};
-use crate::control_state::{Compensation, Distance, Meaning, Source, functions, modal};
+use crate::control_state::modal::{self, Group, GroupSet};
+use crate::control_state::{Compensation, Distance, Meaning, Source, functions};
 use crate::errors::PostCode;
 
 /// The modes that an operation brings itself, or goes on in.
@@ -42,6 +43,24 @@ impl Own {
 /// compensation that can't be said again in its middle.
 #[inline]
 pub fn require(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
+    let is_usual = control.state.groups().are_usual(OF_MOTIONS);
+    if is_usual && control.state.is(modal::UNITS, unit) && !length_plane::is_left(control) {
+        return Ok(());
+    }
+    require_each(control, unit, own)
+}
+
+/// What motions need besides the unit and the plane of a tool's length, and that the tool is one.
+const OF_MOTIONS: GroupSet = GroupSet::of(&[
+    Group::Tool,
+    Group::Distance,
+    Group::DiameterMode,
+    Group::PlaneIsTemporary,
+    Group::Cycle,
+    Group::CutterComp,
+]);
+
+fn require_each(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
     control.require(Act::Motion)?;
     let state = &control.state;
     let stands = state.is(modal::UNITS, unit)

@@ -14,7 +14,8 @@ use fil_machine::{FunctionCode, Letter};
 use super::modes::{self, Own};
 use crate::cause::Cause;
 use crate::control::{Control, Function, full_turn, vectors};
-use crate::control_state::{Compensation, CutterPath, Meaning, modal};
+use crate::control_state::modal::{self, Group, GroupSet};
+use crate::control_state::{Compensation, CutterPath, Meaning};
 use crate::errors::PostCode;
 use crate::operation::motion::{Motion, RapidCode};
 use crate::operation::{Feed, Lead};
@@ -252,9 +253,11 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
     for number in written.numbers() {
         if let Some(position) = control.tables.axis(number).tape_position()? {
             control.block.put(position, scaled[number]);
+            if control.block.noting && motion.word != 0 && AxisSet::LINEAR.has(number) {
+                control.block.note_word(position, motion.word + number as u16);
+            }
         }
     }
-    note_axis_words(control, written, motion.word);
     Ok(true)
 }
 
@@ -320,6 +323,9 @@ pub fn write_motion(control: &mut Control) -> Result<()> {
     write_turning(control, AxisSet::NONE)
 }
 
+/// What compensation leaves to say about a motion.
+const OF_COMPENSATION: GroupSet = GroupSet::of(&[Group::CutterComp, Group::CutterPath]);
+
 /// The same for an arc, which moves the axes of its plane even where its end is its
 /// start and no word names them.
 ///
@@ -335,8 +341,7 @@ pub fn write_turning(control: &mut Control, turning: AxisSet) -> Result<()> {
         control.take_waiting(turning)?;
         length_offset_words(control)?;
     }
-    let compensated = !control.state.is(modal::CUTTER_COMP, Compensation::Off)
-        || control.state.may_be(modal::CUTTER_PATH, CutterPath::Leaving)
+    let compensated = !control.state.groups().are_usual(OF_COMPENSATION)
         || control.compensation_asked() != Compensation::Off;
     let in_plane = compensated && moves_in_plane(control);
     if in_plane {
