@@ -47,6 +47,8 @@ struct Entry {
     public: bool,
     /// A word of [`words`] or of a post family, and not of an APT processor alone.
     of_posts: bool,
+    /// The CL file has named its code.
+    of_file: bool,
     code: f64,
 }
 
@@ -193,6 +195,21 @@ impl Vocabulary {
         with_class(MINOR).or_else(|| with_class(MAJOR)).map(|index| WordId(index as u32))
     }
 
+    /// Gives a word the code that the CL file names for it. A word of the published tables that
+    /// had this code gets one of our own: a code stands for one word in a file.
+    pub(crate) fn set_code(&mut self, id: WordId, code: u32) {
+        let code = f64::from(code);
+        let has_it = |entry: &Entry| entry.public && !entry.of_file && entry.code == code;
+        let others: Vec<usize> =
+            (0..self.entries.len()).filter(|at| has_it(&self.entries[*at])).collect();
+        for other in others {
+            self.entries[other].public = false;
+            self.give_own_code(WordId(other as u32));
+        }
+        let entry = &mut self.entries[id.index()];
+        (entry.code, entry.public, entry.of_file) = (code, true, true);
+    }
+
     /// Number of words.
     pub fn len(&self) -> usize {
         self.entries.len()
@@ -231,7 +248,8 @@ impl Vocabulary {
     fn insert(&mut self, name: Cow<'static, str>, hash: u32, class: u8) -> WordId {
         let id = WordId(self.entries.len() as u32);
         let of_posts = false;
-        self.entries.push(Entry { name, hash, class, public: false, of_posts, code: 0.0 });
+        let entry = Entry { name, hash, class, public: false, of_posts, of_file: false, code: 0.0 };
+        self.entries.push(entry);
         if self.entries.len() * 2 > self.slots.len() {
             self.grow();
         } else {

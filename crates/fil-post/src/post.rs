@@ -120,6 +120,12 @@ impl Post {
         self.path.sense.choice = Choice::Made;
     }
 
+    /// The sense of the arcs is proved for the system that wrote the CL file: none is refused
+    /// for the motions beside it.
+    pub fn prove_arcs(&mut self) {
+        self.path.sense.course.is_proved = true;
+    }
+
     /// The arcs were refused, and [`Post::trust_arcs`] would make that a warning.
     pub fn trust_settles_arcs(&self) -> bool {
         self.path.sense.choice == Choice::WouldSettle

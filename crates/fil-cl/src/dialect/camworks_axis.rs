@@ -1,8 +1,7 @@
 //! CAMWorks CLT (`.clt`) whose circles turn as their axis says.
 //!
-//! In a real file each circle that says CLOCKWISE runs on from its neighbors when it turns
-//! counterclockwise, as its axis says, and runs back when it turns as the word says. The word
-//! tells nothing there.
+//! No file is known that needs it: the words of CAMWorks are proved. It is for one whose words
+//! were lost or changed on the way.
 
 use super::{ArcSense, CircleForm, DialectRules, camworks};
 
@@ -10,6 +9,6 @@ pub(super) const RULES: DialectRules = DialectRules {
     name: "camworks-axis",
     title: "CAMWorks CLT (.clt) whose circles turn as their axis says",
     signs: &[],
-    circle: Some(CircleForm { counts: &[7], sense: ArcSense::ByAxis }),
+    circle: Some(CircleForm { counts: &[7], sense: ArcSense::ByAxis, proof: None }),
     ..camworks::RULES
 };

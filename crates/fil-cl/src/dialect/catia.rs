@@ -30,6 +30,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     break_column: Some(72),
     frame_in_comments: true,
     trailing_comma: true,
+    blanks_in_cycles: false,
     comma_words: true,
     writes_units: false,
     writes_fini: false,
@@ -154,8 +155,9 @@ fn spindle(written: &mut Written<'_>) -> Result<Outcome, FormError> {
     Ok(Outcome::Bound)
 }
 
-/// `LOADTL/n,ADJUST,m,SPINDL,s,MILL` and `LOADTL/n,m` as LOADTL/n,OSETNO,m. The speed comes
-/// again with SPINDL. A tool that is loaded with that offset already is not changed again.
+/// `LOADTL/n,ADJUST,m,SPINDL,s,MILL` and `LOADTL/n,m` as LOADTL/n,ADJUST,m,TOOL: m counts the
+/// compensations of the tool, and not the offsets of the machine. The speed comes again with
+/// SPINDL. A tool that is loaded with that compensation already is not changed again.
 fn tool(written: &mut Written<'_>) -> Outcome {
     let Some(number) = written.number(0) else { return Outcome::Bound };
     let data = &written.record.data;
@@ -184,7 +186,8 @@ fn tool(written: &mut Written<'_>) -> Outcome {
     }
     written.record.data.truncate(1);
     if let Some(offset) = offset {
-        written.record.data.extend([Word::Minor(w::OSETNO), Word::Number(offset)]);
+        let of_tool = [Word::Minor(w::ADJUST), Word::Number(offset), Word::Minor(w::TOOL)];
+        written.record.data.extend(of_tool);
     }
     Outcome::Bound
 }

@@ -13,7 +13,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     name: "generic",
     title: "APT and ISO 4343, no CAM system recognized",
     signs: &[],
-    circle: Some(CircleForm { counts: &[4, 6, 7], sense: ArcSense::RightHand }),
+    circle: Some(CircleForm { counts: &[4, 6, 7], sense: ArcSense::RightHand, proof: None }),
     geometry: true,
     splines: false,
     axis: AxisRule::ModalInMultax,
@@ -21,6 +21,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     break_column: None,
     frame_in_comments: false,
     trailing_comma: false,
+    blanks_in_cycles: false,
     comma_words: false,
     writes_units: false,
     writes_fini: true,
@@ -31,7 +32,13 @@ pub(super) const RULES: DialectRules = DialectRules {
 
 fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
     match written.record.major {
-        w::CYCLE => cycle::positional(written)?,
+        w::CYCLE => {
+            if cycle::is_announced(written) {
+                return Ok(Outcome::Nothing);
+            }
+            cycle::positional(written)?;
+            return Ok(Outcome::Bound);
+        }
         w::FEDRAT if ["PERMIN", "PERREV"].contains(&written.name(0)) => {
             common::feed(written);
             return Ok(Outcome::Bound);

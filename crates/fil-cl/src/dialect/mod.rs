@@ -77,6 +77,8 @@ pub struct DialectRules {
     pub frame_in_comments: bool,
     /// True where a list of items may end in a comma.
     pub trailing_comma: bool,
+    /// True where a blank may part two items of a CYCLE.
+    pub blanks_in_cycles: bool,
     /// True where words of a shop are followed by a comma in place of the slash.
     pub comma_words: bool,
     /// True where each file says its unit.
@@ -115,6 +117,9 @@ pub struct CircleForm {
     pub counts: &'static [usize],
     /// Which way round the axis means.
     pub sense: ArcSense,
+    /// What proves the sense: programs that came with CL files, arc by arc. Arcs of such a
+    /// dialect are right as they are read, whatever the motions beside them look like.
+    pub proof: Option<&'static str>,
 }
 
 impl CircleForm {
@@ -139,6 +144,18 @@ pub enum ArcSense {
     ByWord,
     /// Counterclockwise seen against the axis, whatever word stands behind it.
     ByAxis,
+}
+
+impl ArcSense {
+    /// The sense that turns each arc the other way.
+    fn opposite(self) -> ArcSense {
+        match self {
+            ArcSense::RightHand => ArcSense::LeftHand,
+            ArcSense::LeftHand => ArcSense::RightHand,
+            ArcSense::ByWord => ArcSense::ByAxis,
+            ArcSense::ByAxis => ArcSense::ByWord,
+        }
+    }
 }
 
 /// The tool axis of a GOTO that gives none.
@@ -229,28 +246,39 @@ impl ClDialect {
         rows.clone().find(|(word, _)| word.eq_ignore_ascii_case(major)).map(|(_, reason)| *reason)
     }
 
+    /// What proves which way the arcs of the dialect turn.
+    pub fn proof_of_arcs(self) -> Option<&'static str> {
+        self.rules().circle.and_then(|form| form.proof)
+    }
+
+    /// The system is told by its signs, and has one rule for its arcs.
+    pub(crate) fn is_told(self) -> bool {
+        !self.rules().signs.is_empty()
+    }
+
+    /// Turns arcs of as many numbers the other way than another dialect.
+    pub(crate) fn turns_against(self, other: ClDialect) -> bool {
+        let (Some(own), Some(other)) = (self.rules().circle, other.rules().circle) else {
+            return false;
+        };
+        own.sense == other.sense.opposite()
+            && own.counts.iter().any(|count| other.counts.contains(count))
+    }
+
     /// The dialects that have a CIRCLE of as many numbers as this one and turn it the other
-    /// way.
+    /// way. There is none for a system that is told by its signs: its arcs have one rule.
     ///
     /// ```
     /// use fil_cl::ClDialect;
     ///
-    /// assert_eq!(ClDialect::Creo.turning_otherwise(), [ClDialect::GenericLeft]);
-    /// assert_eq!(ClDialect::Nx.turning_otherwise(), []);
+    /// assert_eq!(ClDialect::Generic.turning_otherwise(), [ClDialect::GenericLeft]);
+    /// assert_eq!(ClDialect::SolidWorksCam.turning_otherwise(), []);
     /// ```
     pub fn turning_otherwise(self) -> Vec<ClDialect> {
-        let Some(own) = self.rules().circle else { return Vec::new() };
-        let opposite = match own.sense {
-            ArcSense::RightHand => ArcSense::LeftHand,
-            ArcSense::LeftHand => ArcSense::RightHand,
-            ArcSense::ByWord => ArcSense::ByAxis,
-            ArcSense::ByAxis => ArcSense::ByWord,
-        };
-        let turns = |form: CircleForm| {
-            form.sense == opposite && form.counts.iter().any(|count| own.counts.contains(count))
-        };
-        let is_other = |dialect: &ClDialect| dialect.rules().circle.is_some_and(turns);
-        Self::ALL.iter().copied().filter(is_other).collect()
+        if self.is_told() {
+            return Vec::new();
+        }
+        Self::ALL.iter().copied().filter(|other| other.turns_against(self)).collect()
     }
 
     /// The dialects in which a CIRCLE may have so many numbers.

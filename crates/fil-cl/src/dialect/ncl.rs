@@ -18,6 +18,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     break_column: None,
     frame_in_comments: false,
     trailing_comma: false,
+    blanks_in_cycles: false,
     comma_words: false,
     writes_units: false,
     writes_fini: true,

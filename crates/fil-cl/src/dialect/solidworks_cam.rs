@@ -13,7 +13,11 @@ pub(super) const RULES: DialectRules = DialectRules {
     name: "solidworks-cam",
     title: "SolidWorks CAM APT (.apt)",
     signs: &[Sign::Word(w::TRNTYP), Sign::Prefix("CSI_SET_")],
-    circle: Some(CircleForm { counts: &[6, 7], sense: ArcSense::RightHand }),
+    circle: Some(CircleForm {
+        counts: &[6, 7],
+        sense: ArcSense::RightHand,
+        proof: Some("2021 of 2021 arcs of Heidenhain programs"),
+    }),
     geometry: false,
     splines: false,
     axis: AxisRule::Upright,
@@ -21,6 +25,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     break_column: None,
     frame_in_comments: false,
     trailing_comma: false,
+    blanks_in_cycles: false,
     comma_words: false,
     writes_units: true,
     writes_fini: true,
@@ -52,13 +57,11 @@ fn frame(record: &mut Record) {
         && record.data[1..].iter().all(|word| *word == Word::Number(0.0));
 }
 
-/// `CYCLE/INIT` announces the cycle, whose couplets follow.
+/// The couplets of a cycle, which may have been announced.
 fn cycle(written: &mut Written<'_>) -> Outcome {
-    if written.record.data == [Word::Minor(w::INIT)] {
-        written.state.expects = Some("the values of the CYCLE");
+    if cycle::is_announced(written) {
         return Outcome::Nothing;
     }
-    written.state.expects = None;
     cycle::of_solidworks(written);
     Outcome::Bound
 }

@@ -95,6 +95,13 @@ fn one_value_each(written: &Written<'_>) -> Vec<Word> {
     kept
 }
 
+/// `CYCLE/INIT` and `CYCLE/CLEAR` announce the cycle, whose couplets follow; true for one.
+pub(crate) fn is_announced(written: &mut Written<'_>) -> bool {
+    let announces = matches!(written.record.data[..], [Word::Minor(w::INIT | w::CLEAR)]);
+    written.state.expects = announces.then_some("the values of the CYCLE");
+    announces
+}
+
 /// Brings a cycle of SolidWorks CAM to Creo's form: its depth counts downwards. A record
 /// with other items than those known stays as it is.
 pub(crate) fn of_solidworks(written: &mut Written<'_>) {

@@ -18,7 +18,7 @@ use crate::errors::ClCode;
 use crate::forms::cycle::Cycle;
 use crate::forms::table::Table;
 use crate::layout::ShapeError;
-use crate::reader::{ToldSweep, WordArc};
+use crate::reader::ToldSweep;
 use crate::record::{Record, Word};
 use crate::vocabulary::{Vocabulary, WordId};
 
@@ -109,20 +109,13 @@ pub(crate) struct FormState {
     pub(crate) sweep: Option<f64>,
     /// A CIRCLE that tells how far it turns, until its end.
     pub(crate) told_sweep: Option<ToldSweep>,
-    /// A CIRCLE whose word contradicts its axis, until the motion after it.
-    pub(crate) word_arc: Option<WordArc>,
-    /// Such a CIRCLE ran on as its word says.
-    pub(crate) has_proved_words: bool,
 }
 
 impl FormState {
     /// True while each motion must be looked at.
     #[inline]
     pub(crate) fn watches_motions(&self) -> bool {
-        self.expects.is_some()
-            || self.table.is_in_play()
-            || self.word_arc.is_some()
-            || self.told_sweep.is_some()
+        self.expects.is_some() || self.table.is_in_play() || self.told_sweep.is_some()
     }
 }
 

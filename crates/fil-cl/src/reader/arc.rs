@@ -10,24 +10,22 @@ use crate::record::{Record, Word};
 use crate::words;
 
 impl Reader<'_> {
-    /// Turns the axis of a circle so that the right-hand rule holds; true where a word has turned
-    /// it that contradicts it. A circle that is not
+    /// Turns the axis of a circle so that the right-hand rule holds. A circle that is not
     /// in a form of the dialect is refused: it is perhaps one of another dialect, whose
     /// axis has the opposite sense.
-    pub(super) fn turn_circle(&mut self, record: &mut Record) -> Result<bool> {
+    pub(super) fn turn_circle(&mut self, record: &mut Record) -> Result<()> {
         let count = record.data.iter().take_while(|word| matches!(word, Word::Number(_))).count();
         let Some(form) = self.rules().circle else {
             let message = format!("arcs of {} are not written as CIRCLE", self.dialect());
-            return self.foreign_circle(&message, count).map(|()| false);
+            return self.foreign_circle(&message, count);
         };
         if !form.counts.contains(&count) {
             let message =
                 format!("{count} numbers, where {} has {}", self.dialect(), form.spell_counts());
-            return self.foreign_circle(&message, count).map(|()| false);
+            return self.foreign_circle(&message, count);
         }
         self.check_axis(record)?;
-        let turned = self.is_turned(record, form.sense, count)?;
-        if turned {
+        if self.is_turned(record, form.sense, count)? {
             for word in record.data.iter_mut().skip(3).take(3) {
                 if let Word::Number(part) = word {
                     *part = 0.0 - *part;
@@ -44,7 +42,7 @@ impl Reader<'_> {
             self.recognition.used.circle = record.line;
         }
         self.modal.in_arc = true;
-        Ok(turned && form.sense == ArcSense::ByWord && !self.is_scout)
+        Ok(())
     }
 
     /// Adds the radius that a circle of six numbers leaves out: the distance of its axis from
@@ -96,8 +94,11 @@ impl Reader<'_> {
     /// Refuses a form that the dialect does not have: it is one of others, or of none.
     fn foreign_circle(&self, message: &str, count: usize) -> Result<()> {
         let range = self.item_range(count.saturating_sub(1));
+        let is_told = self.dialect().is_told();
         let others: Vec<String> = ClDialect::with_circles_of(count)
-            .filter(|other| *other != self.dialect())
+            .filter(|other| {
+                *other != self.dialect() && !(is_told && other.turns_against(self.dialect()))
+            })
             .map(|other| format!("--dialect {other}"))
             .collect();
         if others.is_empty() {

@@ -30,7 +30,7 @@ impl Reader<'_> {
     /// Refuses a last statement without a line end that may go on: more digits, more items,
     /// more text.
     pub(super) fn check_end(&self, vocab: &Vocabulary, record: &Record) -> Result<()> {
-        if !self.lines.is_open() {
+        if !self.lines.is_open() || record.inert {
             return Ok(());
         }
         let is_whole = match record.data.last() {

@@ -42,22 +42,14 @@ impl Reader<'_> {
         }
         match record.major {
             words::CIRCLE => {
-                self.modal.forms.word_arc = None;
-                let is_by_word = self.turn_circle(record)?;
+                self.turn_circle(record)?;
                 self.bring_back(record)?;
-                let sweep = self.modal.forms.sweep.take();
-                if is_by_word || sweep.is_some() {
+                if let Some(degrees) = self.modal.forms.sweep.take() {
                     record.arrange().map_err(|error| self.shape_error(&error))?;
-                    if is_by_word {
-                        self.note_word_arc(record);
-                    }
-                    if let Some(degrees) = sweep {
-                        self.note_sweep(record, degrees);
-                    }
+                    self.note_sweep(record, degrees);
                     return Ok(());
                 }
             }
-            words::RAPID => self.modal.forms.word_arc = None,
             words::GOTO => {
                 self.bring_back(record)?;
                 self.split_points(record)?;
@@ -71,7 +63,6 @@ impl Reader<'_> {
         }
         record.arrange().map_err(|error| self.shape_error(&error))?;
         if record.kind == kind::MOTION {
-            self.judge_word_arc(record)?;
             self.check_sweep(record)?;
         }
         match record.major {

@@ -30,6 +30,11 @@ impl Reader<'_> {
             return Ok(Outcome::Free);
         }
         match record.major {
+            words::DEFSUB | words::ENDSUB | words::CALSUB
+                if rules.is_creo() && self.options.expand_subroutines && !self.options.raw =>
+            {
+                return self.take_subroutine(record);
+            }
             words::INDIRV => return self.take_direction(record),
             words::INTOL | words::OUTTOL if rules.splines => {
                 self.keep_tolerance(record);

@@ -57,6 +57,9 @@ impl Reader<'_> {
         if trim(&self.statement.joined, slash + 1..length).is_empty() {
             return Ok(());
         }
+        if record.major == words::CYCLE && self.rules().blanks_in_cycles {
+            part_at_blanks(&mut self.statement.joined[slash + 1..]);
+        }
         let mut start = slash + 1;
         while start <= length {
             let rest = &self.statement.joined[start..];
@@ -241,4 +244,15 @@ fn trim(text: &[u8], range: Range<usize>) -> Range<usize> {
     let start = part.iter().position(|byte| !is_blank(*byte)).unwrap_or(part.len());
     let end = part.iter().rposition(|byte| !is_blank(*byte)).map_or(start, |at| at + 1);
     range.start + start..range.start + end
+}
+/// Puts a comma for a blank that parts two items.
+fn part_at_blanks(items: &mut [u8]) {
+    let is_of_item = |byte: u8| !is_blank(byte) && byte != b',';
+    for at in 1..items.len().saturating_sub(1) {
+        let has_more = items[at..].iter().any(|byte| !is_blank(*byte));
+        let next = items[at..].iter().copied().find(|byte| !is_blank(*byte));
+        if is_blank(items[at]) && is_of_item(items[at - 1]) && has_more && next != Some(b',') {
+            items[at] = b',';
+        }
+    }
 }

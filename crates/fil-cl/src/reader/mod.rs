@@ -23,8 +23,8 @@ mod resume;
 mod seek;
 mod spline;
 mod statement;
+mod subroutine;
 mod told_sweep;
-mod word_arc;
 
 use std::io::Read;
 use std::ops::Range;
@@ -49,8 +49,8 @@ use seek::Seeking;
 use spline::Gathered;
 pub use spline::SplineCounts;
 use statement::{Form, GatherError, Statement};
+use subroutine::Subroutines;
 pub(crate) use told_sweep::ToldSweep;
-pub(crate) use word_arc::WordArc;
 
 /// How a CL text is to be read.
 #[derive(Clone, Copy, Debug)]
@@ -64,11 +64,20 @@ pub struct Options {
     /// True to give statements as they are written, and not in the form of Creo; what they
     /// mean is then told by [`Reader::meaning`]. Arcs by geometry are given as CIRCLE.
     pub raw: bool,
+    /// True to give the records of a subroutine of Creo's where CALSUB calls it; false to give
+    /// DEFSUB, ENDSUB and CALSUB as they are written.
+    pub expand_subroutines: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { dialect: None, decode: latin1, statement_limit: 1 << 20, raw: false }
+        Options {
+            dialect: None,
+            decode: latin1,
+            statement_limit: 1 << 20,
+            raw: false,
+            expand_subroutines: true,
+        }
     }
 }
 
@@ -107,6 +116,7 @@ pub struct Reader<'r> {
     splines_counted: u32,
     /// Records that the last statement made besides its own, the last one first.
     made: Vec<Record>,
+    subroutines: Subroutines,
     modal: Modal,
     file: String,
     options: Options,
@@ -150,6 +160,7 @@ impl<'r> Reader<'r> {
             spline_counts: SplineCounts::default(),
             splines_counted: 0,
             made: Vec::new(),
+            subroutines: Subroutines::default(),
             modal: Modal::default(),
             file: file_name.to_string(),
             options,
@@ -224,7 +235,18 @@ impl<'r> Reader<'r> {
         Ok(false)
     }
 
+    /// Reads on to a record that is none of a subroutine under way.
     fn read_next(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<bool> {
+        while self.read_one(vocab, record)? {
+            if !self.subroutines.is_under_way() {
+                return Ok(true);
+            }
+            self.keep_for_subroutine(record)?;
+        }
+        self.check_subroutines_end().map(|()| false)
+    }
+
+    fn read_one(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<bool> {
         if !self.pending.is_empty() {
             self.next_pending(record);
             return Ok(true);
@@ -239,8 +261,9 @@ impl<'r> Reader<'r> {
             self.recognize_ahead();
             self.started = true;
         }
-        // A spline under way is no part of what a checkpoint keeps.
-        if self.seeking.is_due(self.number) && !self.spline.is_under_way() {
+        // A spline or a subroutine under way is no part of what a checkpoint keeps.
+        let is_whole = !self.spline.is_under_way() && !self.subroutines.is_under_way();
+        if self.seeking.is_due(self.number) && is_whole {
             self.seeking.keep(self.number, self.lines.offset(), self.lines.line(), self.modal);
         }
         loop {
@@ -351,9 +374,6 @@ impl<'r> Reader<'r> {
     /// The short way for a statement that was read before.
     #[inline]
     fn read_repeated(&mut self, record: &mut Record) -> bool {
-        if self.modal.forms.word_arc.is_some() {
-            return false;
-        }
         let Some((length, lines)) = self.repeated.read(self.lines.unread(), record) else {
             return false;
         };

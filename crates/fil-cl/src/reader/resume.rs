@@ -46,7 +46,7 @@ impl Reader<'_> {
         self.modal.in_arc = false;
         let forms = &mut self.modal.forms;
         (forms.expects, forms.direction, forms.normal) = (None, None, None);
-        (forms.word_arc, forms.sweep, forms.told_sweep) = (None, None, None);
+        (forms.sweep, forms.told_sweep) = (None, None);
         true
     }
 

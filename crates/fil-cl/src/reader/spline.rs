@@ -34,6 +34,18 @@ const TOLERANCE_MM: f64 = 1e-3;
 /// Tolerance in other files that name none, in their unit.
 const TOLERANCE: f64 = 1e-4;
 
+/// Degree of the splines of NX.
+const CUBIC: usize = 3;
+
+/// The last knot of a spline of NX.
+const LAST_KNOT: f64 = 1.0;
+
+/// True for the knots that NX writes: those between the ends, and the last one once.
+fn is_without_ends(knots: &[f64]) -> bool {
+    let rises = knots.windows(2).all(|two| two[0] < two[1]);
+    rises && knots.first().is_some_and(|first| *first > 0.0) && knots.last() == Some(&LAST_KNOT)
+}
+
 /// What is awaited while a spline is read.
 const POINTS: &str = "the knots and control points of the NURBS";
 
@@ -166,6 +178,10 @@ impl Reader<'_> {
                 return Err(self.spline_error(message));
             }
         };
+        if self.spline.points.is_empty() && is_without_ends(&self.spline.knots) {
+            self.check_behind(point, behind)?;
+            self.begin_where_the_tool_stands(behind)?;
+        }
         let (degree, count) =
             degree_and_count(&self.spline.knots).map_err(|message| self.spline_error(&message))?;
         if self.spline.points.is_empty() {
@@ -189,6 +205,20 @@ impl Reader<'_> {
             return Ok(Outcome::Nothing);
         }
         self.give_spline(record)
+    }
+
+    /// Adds to a cubic spline of NX what the file leaves out: the knots of its ends, and the first
+    /// control point, where the tool stands.
+    fn begin_where_the_tool_stands(&mut self, behind: Behind) -> Result<()> {
+        let Some(start) = self.modal.point else {
+            return Err(self.spline_error("a point to start from must come before the NURBS"));
+        };
+        let Gathered { knots, points, behind: first, .. } = &mut self.spline;
+        let whole = [0.0; CUBIC + 1].into_iter().chain(knots.drain(..)).chain([LAST_KNOT; CUBIC]);
+        *knots = whole.collect();
+        points.push(start);
+        *first = behind;
+        Ok(())
     }
 
     /// Weights that are all the same change nothing, unless the coordinates are multiplied by

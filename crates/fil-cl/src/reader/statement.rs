@@ -329,9 +329,18 @@ fn is_pseudo(line: &[u8]) -> bool {
     note_start(line.trim_ascii_start()).is_some()
 }
 
-/// Where the key of a note begins: behind `$$->`, which some write with blanks before the arrow.
+/// Where the key of a note begins: behind `$$->`, which some write with blanks before the arrow,
+/// and behind `REMARK ->`, as Creo writes for its post.
 fn note_start(line: &[u8]) -> Option<usize> {
-    let rest = line.strip_prefix(b"$$")?;
+    const REMARK: &[u8] = b"REMARK";
+    let rest = match line.strip_prefix(b"$$") {
+        Some(rest) => rest,
+        None => {
+            let (word, rest) = line.split_at_checked(REMARK.len())?;
+            rest.first().filter(|byte| word.eq_ignore_ascii_case(REMARK) && is_blank(**byte))?;
+            rest
+        }
+    };
     let arrow = rest.trim_ascii_start();
     arrow.starts_with(b"->").then(|| line.len() - arrow.len() + 2)
 }

@@ -352,37 +352,106 @@ fn empty_items() {
     refused("CHANNEL,1\n", None, ClCode::BadWord);
 }
 
-/// A word that contradicts the axis is believed only where the path runs on by it.
+/// The word of CAMWorks is proved: an arc that runs back from the motion behind it is a cusp.
 #[test]
-fn a_word_against_the_axis_must_be_proved() {
-    let text = |word: &str, next: &str| {
-        format!(
-            "BOX/0,0,0,1,1,1\nGOTO/10,-5,0\nGOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10,{word}\nGOTO/0,-10,0\n{next}\n"
-        )
+fn the_word_of_camworks_decides_at_a_cusp() {
+    let text = "BOX/0,0,0,1,1,1\nGOTO/10,-5,0\nGOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10,CLOCKWISE\n\
+                GOTO/0,-10,0\nGOTO/5,-10,0\n";
+    let axis = |dialect| {
+        let found = records(text, dialect);
+        found.iter().find_map(Record::circle).unwrap().axis[2]
     };
-    let code = |text: &str| read(text, None).err().map(|diag| diag.code.number);
-    // Three quarters of a turn by the axis, a quarter by the word.
-    let wrong = text("CLOCKWISE", "GOTO/5,-10,0");
-    assert_eq!(code(&wrong), Some(417));
-    assert_eq!(code(&text("COUNTERCLOCKWISE", "GOTO/5,-10,0")), None);
-    let diag = read(&wrong, None).unwrap_err();
-    assert!(diag.message.contains("line 4") && diag.spans[0].line == 6, "{diag}");
-    assert!(diag.hint.as_ref().is_some_and(|hint| hint.contains("camworks-axis")), "{diag}");
+    assert_eq!(axis(ClDialect::CamWorks), -1.0);
+    assert_eq!(axis(ClDialect::CamWorksAxis), 1.0);
     // The signs of CAMWorks do not speak against its variant.
     let options = Options { dialect: Some(ClDialect::CamWorksAxis), ..Options::default() };
-    let mut reader = Reader::new(wrong.as_bytes(), "t", options);
+    let mut reader = Reader::new(text.as_bytes(), "t", options);
     let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
     while reader.read(&mut vocab, &mut record).unwrap() {}
     assert_eq!(reader.recognized().against, None);
-    let by_axis = records(&wrong, ClDialect::CamWorksAxis);
-    assert!(by_axis.iter().any(|record| record.circle().is_some_and(|c| c.axis[2] == 1.0)));
-    // It runs on, a corner or a rapid tells nothing, a point twice neither.
-    for next in ["GOTO/-5,-10,0", "GOTO/0,-20,0", "RAPID/\nGOTO/5,-10,0", "GOTO/0,-10,0"] {
-        assert_eq!(code(&text("CLOCKWISE", next)), None, "{next}");
+}
+
+/// No help names a dialect that would turn the arcs of a system that is known by its signs.
+#[test]
+fn arcs_of_a_known_system_have_one_rule() {
+    for dialect in ClDialect::ALL {
+        let is_told = !dialect.rules().signs.is_empty();
+        assert!(!is_told || dialect.turning_otherwise().is_empty(), "{dialect}");
     }
-    let feed = "FEDRAT/MMPM,9.\n".repeat(2) + "GOTO/5,-10,0";
-    assert_eq!(code(&text("CLOCKWISE", &feed)), Some(417));
-    // A word that has proved itself is believed beside a boss.
-    let proved = text("CLOCKWISE", "GOTO/-5,-10,0") + &wrong;
-    assert_eq!(code(&proved), None);
+    assert!(ClDialect::SolidWorksCam.proof_of_arcs().is_some());
+    assert!(ClDialect::CamWorks.proof_of_arcs().is_some());
+    assert_eq!(ClDialect::Generic.proof_of_arcs(), None);
+    let wrong = "TRNTYP/WORLD,0,0,0\nCIRCLE/0,0,0,0,0,1,5,CLOCKWISE\n";
+    let diag = refused(wrong, None, ClCode::ForeignArc);
+    assert!(diag.hint.is_some_and(|hint| !hint.contains("left")));
+}
+
+/// The file that Creo hands to its post: notes behind REMARK, CAMERA for the frame, and the
+/// codes of its words.
+#[test]
+fn what_creo_hands_to_its_post() {
+    let text = "REMARK *  PRO/CLFILE VERSION CREO PARAMETRIC 9.0\nPPWORD/CALSUB,3150\n\
+                PPWORD/DEPTH,281\nREMARK -> CUTTER / 6.0\nCAMERA/1,0,0,0,0,1,0,0,0,0,1,0\n";
+    let mut reader = Reader::new(text.as_bytes(), "t", Options::default());
+    let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+    let mut majors = Vec::new();
+    while reader.read(&mut vocab, &mut record).unwrap() {
+        majors.push(record.major);
+    }
+    assert_eq!(reader.recognized().dialect, ClDialect::Creo);
+    let note = words::PPWORD;
+    assert_eq!(majors, [words::REMARK, note, note, words::CUTTER, words::CSYS]);
+    assert_eq!(vocab.code(words::CALSUB), 3150.0);
+    assert_eq!(vocab.minor_with_code(281.0), Some(words::DEPTH), "the file's code wins");
+    assert_ne!(vocab.code(words::FEDTO), 281.0);
+    refused("PPWORD/DEPTH\n", None, ClCode::BadPoint);
+    refused("PPWORD/DEPTH,1.5\n", None, ClCode::BadPoint);
+}
+
+/// What a subroutine holds is done where it is called.
+#[test]
+fn subroutines_of_creo() {
+    let creo = "$$* Pro/CLfile  Version 9.0\n";
+    let sub = "DEFSUB/1\nFEDRAT/10,IPM\nGOTO/1,0,0,2,0,0\nENDSUB\n";
+    let text = format!("{creo}{sub}LOADTL/2\nGOTO/5,0,0\nCALSUB/1\nGOTO/6,0,0\nCALSUB/1\n");
+    let found: Vec<(u32, u32)> =
+        read(&text, None).unwrap().0.iter().map(|record| (record.number, record.line)).collect();
+    let expected = [(1, 6), (2, 7), (3, 3), (4, 4), (5, 4), (6, 9), (7, 3), (8, 4), (9, 4)];
+    assert_eq!(found, expected);
+    for wrong in [
+        "CALSUB/1\n",
+        "CALSUB/1,2\n",
+        "ENDSUB\n",
+        "DEFSUB/1\nDEFSUB/2\n",
+        "DEFSUB/1\nGOTO/1,2,3\n",
+        "DEFSUB/1\nFINI\n",
+        "DEFSUB/1\nMODE/INCR\nGOTO/1,2,3\nMODE/ABSOL\nENDSUB\nCALSUB/1\n",
+        "DEFSUB/1\nENDSUB\nDEFSUB/1\nGOTO/1,2,3\nENDSUB\n",
+    ] {
+        refused(&format!("{creo}{wrong}"), None, ClCode::UncomputedMotion);
+    }
+    let as_written = Options { expand_subroutines: false, ..Options::default() };
+    let mut reader = Reader::new(text.as_bytes(), "t", as_written);
+    let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+    let mut count = 0;
+    while reader.read(&mut vocab, &mut record).unwrap() {
+        count += 1;
+    }
+    assert_eq!(count, 10);
+}
+
+/// A spline of NX without its ends begins where the tool stands and ends at its last point.
+#[test]
+fn splines_of_nx_without_their_ends() {
+    let spline = |knots: &str, points: usize| {
+        let points: String = (1..=points).map(|n| format!("CNTRL/{n}.,{n}.,0.\n")).collect();
+        format!("MSYS/0,0,0,1,0,0,0,1,0\nGOTO/0.,0.,0.\nNURBS/\n{knots}{points}")
+    };
+    let knots = "KNOT/0.5\nKNOT/1.0\n";
+    let found = read(&spline(knots, 4), None).unwrap().0;
+    let ends: Vec<[f64; 3]> = found.iter().filter_map(Record::point).collect();
+    assert_eq!(ends.first(), Some(&[0.0; 3]));
+    assert_eq!(ends.last(), Some(&[4.0, 4.0, 0.0]));
+    refused(&spline("KNOT/0.5\nKNOT/0.9\n", 4), None, ClCode::BadSpline);
+    refused(&spline(knots, 3), None, ClCode::MissingItem);
 }

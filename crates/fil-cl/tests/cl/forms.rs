@@ -217,9 +217,9 @@ fn tools_of_catia() {
         forms(&text),
         [
             "LOADTL / 1.0",
-            "LOADTL / 1.0, OSETNO, 2.0",
+            "LOADTL / 1.0, ADJUST, 2.0, TOOL",
             "LOADTL / 3.0",
-            "LOADTL / 5.0, OSETNO, 1.0",
+            "LOADTL / 5.0, ADJUST, 1.0, TOOL",
             "LOADTL / 5.0, ADJUST, 1.0, OTHER",
         ]
     );
@@ -266,7 +266,7 @@ fn cycles_and_order_of_nx() {
     assert_eq!(
         forms(&text),
         [
-            "LOADTL / 62.0, OSETNO, 1.0",
+            "LOADTL / 62.0, ADJUST, 1.0, TOOL",
             "SELCTL / 62.0",
             "FEDRAT / 250.0, MMPM",
             "CYCLE / DEEP, DEPTH, 72.0, STEP, 20.0, MMPM, 250.0, CLEAR, 3.0, RETURN, 0.0",

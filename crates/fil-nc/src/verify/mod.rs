@@ -63,7 +63,7 @@ use fil_cl::Reader;
 use fil_diag::Diag;
 use fil_machine::{Commons, Unit};
 
-use crate::dialect::Habit;
+use crate::dialect::{Family, Habit};
 use crate::errors::NcCode;
 use crate::events::Events;
 use crate::motion::work_offset;
@@ -125,6 +125,8 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let path = path.on_machine(settings.shift_along(), settings.matrix_leaves_axis());
     let path = path.with_frame_words(settings.frame_words());
     let path = path.clear_of_threads_by(settings.thread_clearance());
+    let path =
+        path.turning(settings.is_lathe()).with_edges(settings.dialect.family == Family::Sinumerik);
     let path = path.naming_tools(settings.dialect.has(Habit::NamesTools));
     let path = path.in_unit(check.unit).leaving_out(check.skips_blocks);
     let nc = (check.nc, check.nc_name);

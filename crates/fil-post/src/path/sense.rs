@@ -39,6 +39,8 @@ pub struct Course {
     arc: Option<Waiting>,
     /// What the arcs so far tell.
     tally: Tally,
+    /// The sense of the file's arcs is proved: what runs back is a cusp, and no other sense.
+    pub is_proved: bool,
 }
 
 /// An arc whose end is not judged.
@@ -188,6 +190,9 @@ impl Course {
         let Some(arc) = self.arc.filter(|_| way.norm_squared() > SHORTEST) else { return Ok(()) };
         let end = Meeting::of(arc.end, way, arc.tool);
         self.settle(Some(end));
+        if self.is_proved {
+            return Ok(());
+        }
         if (arc.begin, end) == (Some(Meeting::Back), Meeting::Back) && arc.extent != Extent::Short {
             return PostCode::ArcSense.err(format!(
                 "the CIRCLE of line {} runs back from the motion before it and into the one after \
@@ -241,6 +246,11 @@ impl Course {
         let Tally { proved, contradicted, smooth, cusps, short, long, plunges, .. } = self.tally;
         let lines = std::mem::take(&mut self.tally);
         match () {
+            () if self.is_proved && contradicted <= proved => Verdict::Fits,
+            () if self.is_proved => Verdict::Unproved(format!(
+                "the CIRCLE of line {} runs back, as its system means it",
+                lines.first_contradicted
+            )),
             () if contradicted > proved => Verdict::Contradicted(format!(
                 "{contradicted} of the arcs, the first one the CIRCLE of line {}, run back and would \
                  run on in the other sense, and {proved} run on",

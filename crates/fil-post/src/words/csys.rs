@@ -8,8 +8,9 @@
 //! points and tool axes into the frame that was named first, and anything else is refused. What
 //! a frame means is settled at the first motion behind it.
 
-use fil_cl::Record;
 use fil_cl::record::motion;
+use fil_cl::vocabulary::words as w;
+use fil_cl::{Record, Word};
 use fil_diag::{Diag, Result};
 use fil_machine::locations::{self as loc, InputCsys};
 use nalgebra::{Matrix3, Vector3};
@@ -39,7 +40,9 @@ const HINT: &str = "Post each clamping from a file of its own. Where all points 
 /// # Errors
 /// A second clamping.
 pub fn note(post: &mut Post, name: &str, record: &Record) -> Result<()> {
-    let is_clamping = CLAMPINGS.contains(&name);
+    // SETUP/END ends the clamping that SETUP/START has named.
+    let ends = record.data.first() == Some(&Word::Minor(w::END));
+    let is_clamping = CLAMPINGS.contains(&name) && !ends;
     let layout = Layout::of(name, record);
     if (layout.is_none() && !is_clamping)
         || post.control.commons.words_without_effect().iter().any(|word| word == name)

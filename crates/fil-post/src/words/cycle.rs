@@ -64,6 +64,10 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
     // FEDTO,0 of NX feeds from the R level to the hole's start.
     let feeds_to_start = items.has(w::FEDTO);
     let depth = optional(items, &[w::DEPTH, w::FEDTO], &mut words.depth)?;
+    let depth = match depth {
+        None if kind == CycleKind::Csink => depth_of_cone(items, &mut words.depth)?,
+        depth => depth,
+    };
     let depth = depth.ok_or_else(|| PostCode::CycleForm.diag("DEPTH is missing"))?.abs();
     let clear = clearance(post, items, &mut words.clear)?;
     let step = step(post, items, kind, &mut words.step)?;
@@ -78,7 +82,10 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
     }
     let own_feed = own_feed(post, items, kind)?;
     let feed = match own_feed {
-        Some(feed) => feed,
+        Some(feed) => {
+            keep_as_first(post, kind, feed);
+            feed
+        }
         None => feed_of_fedrat(post, kind)?,
     };
     let usual_dwell = kind.dwell().and_then(|at| post.control.commons.dbl_opt(at));
@@ -100,6 +107,24 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         along: None,
         in_force: None,
     })
+}
+
+/// The depth at which a countersink of the angle TLANGL has the diameter DIAMET at the start of
+/// the hole; `None` without them.
+///
+/// # Errors
+/// One without the other; no diameter, or no angle of a cone.
+fn depth_of_cone(items: &mut Items, at: &mut u16) -> Result<Option<f64>> {
+    let angle = items.couplet(w::TLANGL)?;
+    let diameter = optional(items, &[w::DIAMET], at)?;
+    match (diameter, angle) {
+        (Some(diameter), Some(angle)) if diameter > 0.0 && angle > 0.0 && angle < 180.0 => {
+            Ok(Some(diameter / 2.0 / libm::tan((angle / 2.0).to_radians())))
+        }
+        (None, None) => Ok(None),
+        _ => PostCode::CycleForm
+            .err("CSINK takes DEPTH, or DIAMET above zero and TLANGL below 180 degrees"),
+    }
 }
 
 /// The kind of the cycle. DEEP and BRKCHP may stand beside DRILL.
@@ -187,6 +212,14 @@ fn step(post: &mut Post, items: &mut Items, kind: CycleKind, at: &mut u16) -> Re
         post.warn(PostCode::IgnoredPart, message);
     }
     Ok(step)
+}
+
+/// The feed of a cycle holds on behind it where no FEDRAT came before: Creo writes none then, and
+/// the control holds it, too.
+fn keep_as_first(post: &mut Post, kind: CycleKind, feed: CycleFeed) {
+    if let (CycleFeed::Feed(feed), false) = (feed, kind == CycleKind::Tap) {
+        post.path.feed.get_or_insert(feed);
+    }
 }
 
 /// FEDRAT between two holes: a cycle without a feed of its own takes it.

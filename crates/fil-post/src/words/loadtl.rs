@@ -1,9 +1,10 @@
 //! LOADTL/n\[,LENGTH,l]\[,OSETNO,o], LOAD/TOOL,n\[,ADJUST,o], TURRET/n: tool change;
+//! LOADTL/n,ADJUST,c,TOOL with the number of one of the tool's own compensations;
 //! SELCTL/n and SELECT/TOOL,n: the next tool.
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
-use fil_machine::locations as loc;
+use fil_machine::locations::{self as loc, ControlFamily};
 
 use super::cutter;
 use crate::cause::Cause;
@@ -21,9 +22,12 @@ const MOST: f64 = 1e9;
 /// # Errors
 /// No tool number, or one that does not fit; a tool change in cutter compensation.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
+    let of_tool = items.len() > 1 && items.word_at(items.len() - 1, w::TOOL);
+    let counts_compensations = post.control.tables.family == ControlFamily::Sinumerik;
     let offset = match items.couplet(w::OSETNO)? {
         Some(offset) => Some(offset),
-        None => items.couplet(w::ADJUST)?,
+        // The compensations of a tool have numbers of their own where the control has them so.
+        None => items.couplet(w::ADJUST)?.filter(|_| !of_tool || counts_compensations),
     };
     let offset = offset.map(|offset| (offset, items.last_word()));
     gauge_length(post, items)?;

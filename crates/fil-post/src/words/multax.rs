@@ -2,6 +2,7 @@
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
+use fil_machine::locations as loc;
 use nalgebra::Vector3;
 
 use super::csys;
@@ -40,6 +41,11 @@ pub fn tlaxis(post: &mut Post, items: &mut Items) -> Result<()> {
     let axis = Vector3::new(i, j, k);
     if axis.norm() < SHORTEST {
         return PostCode::AxisLength.err("the tool axis has length zero");
+    }
+    let turns = post.control.commons.read(loc::LATHE_DIAMETER) && !post.control.tables.mills();
+    if turns && i == 0.0 && k == 0.0 {
+        // Y stands across the plane that a lathe turns in: CATIA names the plane so.
+        return Ok(());
     }
     csys::settle_moves(post)?;
     post.path.axis.in_doubt = false;

@@ -16,6 +16,13 @@ use crate::post::Post;
 /// An angle of the cone nearer to that of the two points is the same, degrees.
 const SAME_ANGLE: f64 = 0.05;
 
+/// CUTANG gives the direction of the cut from Z: 0 or 180 degrees for a straight thread along
+/// the spindle, as Creo writes them, and 90 or 270 for one on a face.
+fn is_along(cone: f64, on_face: bool) -> bool {
+    let off = cone.rem_euclid(180.0);
+    off.min(180.0 - off) <= SAME_ANGLE || on_face && (off - 90.0).abs() <= SAME_ANGLE
+}
+
 /// Remembers the lead, or what the whole thread is. FEDRAT, LOADTL or OP/NOMORE end it.
 ///
 /// # Errors
@@ -49,7 +56,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         }
         _ => return PostCode::Thread.err("OP/THREAD needs DEPTH and CUTS, or neither"),
     };
-    if given(cone).is_some_and(|cone| cone.abs() > SAME_ANGLE) {
+    if cone.is_some_and(|cone| !is_along(cone, on_face)) {
         return Err(items.error("CUTANG: the cone is that of the two points; leave the angle out"));
     }
     if cuts.fract() != 0.0 || !(1.0..=1000.0).contains(&cuts) {

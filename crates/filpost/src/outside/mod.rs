@@ -204,16 +204,27 @@ impl<'o, 'r> Outside<'o, 'r> {
         record: &Record,
         vocabulary: &mut Vocabulary,
     ) -> Result<(), Box<Diag>> {
-        if record.kind != kind::MOTION && self.post.looks_ahead_for_axes() {
+        if record.kind == kind::MOTION {
+            return Ok(());
+        }
+        if record.kind == kind::SURFACE && self.has_proved_arcs() {
+            self.post.prove_arcs();
+        }
+        if self.post.looks_ahead_for_axes() {
             self.follow_stretch(record, vocabulary);
         }
-        if record.kind != kind::MOTION && changes_tool(record) {
+        if changes_tool(record) {
             return self.look_for_tools(record, vocabulary);
         }
-        if record.kind != kind::MOTION && record.major == words::RAPID {
+        if record.major == words::RAPID {
             self.look_for_axes(vocabulary);
         }
         Ok(())
+    }
+
+    /// True where the system that wrote the CL file is known to mean its arcs as they are read.
+    fn has_proved_arcs(&self) -> bool {
+        self.source.recognized().is_some_and(|found| found.dialect.proof_of_arcs().is_some())
     }
 
     #[cold]

@@ -36,15 +36,17 @@ impl State {
         }
         let number = |words: &[WordId]| words.iter().find_map(|word| record.number_after(*word));
         let kind = CYCLES.iter().find(|(word, _)| record.has(*word)).map(|(_, kind)| *kind);
-        let (Some(kind), Some(depth)) = (kind, number(&[w::DEPTH, w::FEDTO])) else {
-            return None;
-        };
+        let kind = kind?;
+        let of_cone = || cone_depth(record).filter(|_| kind == CycleKind::Csink);
+        let depth = number(&[w::DEPTH, w::FEDTO]).or_else(of_cone)?;
         let rate = [w::MMPM, w::IPM, w::FPM, w::MMPR, w::IPR, w::FPR]
             .iter()
             .find_map(|unit| record.number_after(*unit))
             .map(|value| self.rate_of(record, value));
         let tapped = self.lead(record).filter(|_| kind == CycleKind::Tap && record.has(w::TPI));
         let rate = tapped.map(Rate::PerTurn).or(rate);
+        // Without a FEDRAT before it the feed of the cycle holds on.
+        self.rate = self.rate.or(rate.filter(|_| kind != CycleKind::Tap));
         let begins = self.cycle.is_none();
         // A RAPID that waits is that of the way to the first hole.
         self.rapid = false;
@@ -68,4 +70,10 @@ impl State {
         let begins = begins.then_some(ExpectedStep::CycleEnd);
         Some(begins.into_iter().chain(rigid.then_some(ExpectedStep::RigidTap)).collect())
     }
+}
+
+/// How deep a cone of the angle TLANGL goes to be DIAMET wide at the top.
+fn cone_depth(record: &Record) -> Option<f64> {
+    let half = record.number_after(w::TLANGL)? / 2.0;
+    Some(record.number_after(w::DIAMET)? / (2.0 * libm::tan(half.to_radians())))
 }

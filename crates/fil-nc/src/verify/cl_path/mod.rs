@@ -66,6 +66,10 @@ struct Tool {
     axis: Vector3<f64>,
     /// MULTAX is on.
     multax: bool,
+    /// The machine is a lathe.
+    turns: bool,
+    /// The control counts the compensations of each tool by themselves.
+    has_edges: bool,
 }
 
 /// What SPINDL has asked for last.
@@ -134,6 +138,18 @@ impl<'r> ClPath<'r> {
     /// The path on a machine that calls its tools by the names of the CL file.
     pub fn naming_tools(mut self, names: bool) -> Self {
         self.state.names.are_called = names;
+        self
+    }
+
+    /// The path on a lathe, whose turning tools have no axis of their own.
+    pub fn turning(mut self, turns: bool) -> Self {
+        self.state.tool.turns = turns;
+        self
+    }
+
+    /// The path on a control that counts the compensations of each tool by themselves.
+    pub fn with_edges(mut self, has_edges: bool) -> Self {
+        self.state.tool.has_edges = has_edges;
         self
     }
 
@@ -262,6 +278,8 @@ impl State {
             self.tool.multax = !record.has(w::OFF);
         }
         match (record.sub, &numbers(record)[..]) {
+            (mode::TLAXIS, [i, j, k]) if self.tool.turns && *i == 0.0 && *k == 0.0 && *j != 0.0 => {
+            }
             (mode::TLAXIS, [i, j, k]) => self.tool.axis = Vector3::new(*i, *j, *k),
             (mode::MULTAX, _) if record.has(w::OFF) => self.tool.axis = Vector3::z(),
             _ => {}
@@ -309,7 +327,10 @@ impl State {
         self.end_thread();
         let numbers = numbers_beside(record, &[w::LENGTH, w::OSETNO, w::ADJUST]);
         let number = *numbers.first()?;
-        let offset = record.number_after(w::OSETNO).or(record.number_after(w::ADJUST));
+        // A compensation of the tool is an offset where the control counts them so.
+        let of_tool = matches!(record.data[..], [_, .., fil_cl::Word::Minor(w::TOOL)]);
+        let adjust = record.number_after(w::ADJUST).filter(|_| !of_tool || self.tool.has_edges);
+        let offset = record.number_after(w::OSETNO).or(adjust);
         Some(vec![ExpectedStep::Tool {
             number: self.names.number(whole(number)?),
             offset: match offset {
