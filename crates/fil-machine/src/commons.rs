@@ -8,6 +8,7 @@ use fil_diag::{Levels, Result};
 
 use crate::errors::MachineCode;
 use crate::letter::Letter;
+use crate::post_options::PostOptions;
 use crate::setting::Setting;
 
 /// An absent integer (shown as NA in reports).
@@ -83,6 +84,8 @@ pub struct Commons {
     allowed_offsets: Vec<String>,
     /// Levels of findings that the machine sets.
     levels: Levels,
+    /// Options of the post, with their values.
+    options: PostOptions,
     /// Letters that were given a tape position and no digits: bit n is letter n of the alphabet.
     wants_digits: u32,
 }
@@ -98,6 +101,7 @@ impl Commons {
             without_effect: Vec::new(),
             allowed_offsets: Vec::new(),
             levels: Levels::default(),
+            options: PostOptions::default(),
             wants_digits: 0,
         }
     }
@@ -157,6 +161,16 @@ impl Commons {
     /// The same, to be changed.
     pub fn levels_mut(&mut self) -> &mut Levels {
         &mut self.levels
+    }
+
+    /// Options of the post, with their values.
+    pub fn options(&self) -> &PostOptions {
+        &self.options
+    }
+
+    /// The same, to be changed.
+    pub fn options_mut(&mut self) -> &mut PostOptions {
+        &mut self.options
     }
 
     /// Work offsets by their names in a program (`G54`, `G54.1P3`), in capitals, that a

@@ -59,6 +59,18 @@ fil_diag::codes! {
         DescribedTwice = 609, Error, "the machine is described twice, and not alike",
             "What an option file lists of the rotary axes says otherwise than the axes that are given: one of the two is another machine.",
             "Correct the axis chain, or the setting that lists it; a listed setting that is removed says nothing.";
+        /// A value for an option that the post lacks.
+        UnknownOption = 610, Error, "unknown option of the post",
+            "A choice that the post does not know would change nothing, and the program would not be the one that was asked for.",
+            "`filpost posts NAME` lists the options of a post.";
+        /// A value that an option does not take.
+        OptionValue = 611, Error, "option of the post has a wrong value",
+            "The value is not of the option's type or not among its choices.",
+            "`filpost posts NAME` lists the options of a post with their values.";
+        /// A wrong declaration of an option.
+        OptionDeclaration = 612, Error, "option of the post is declared wrongly",
+            "An option has a type (bool, integer, length, choice, text), a default, a group and a help line.",
+            "Correct the declaration; docs/machine.md shows one of each type.";
         /// A setting nobody reads.
         UnusedSetting = 651, Warning, "setting without effect",
             "A value in this location is kept, and nothing reads it: the program is the same without it.",

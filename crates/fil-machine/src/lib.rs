@@ -31,6 +31,7 @@ pub mod motion_rules;
 pub mod number;
 pub mod numbering;
 pub mod osp_lengths;
+pub mod post_options;
 pub mod rotary_feed_rules;
 mod rotation;
 pub mod rounding;

@@ -43,6 +43,8 @@ pub enum FunctionKind {
     LastWritten,
     /// COMF
     NamedCommon,
+    /// OPTIONF
+    PostOption,
 }
 
 impl FunctionKind {
@@ -491,6 +493,12 @@ pub const BUILTINS: &[Builtin] = &[
         "'name'",
         FunctionKind::NamedCommon,
         "the value in force of a setting, by its name",
+    ),
+    extension(
+        "OPTIONF",
+        "'name'",
+        FunctionKind::PostOption,
+        "the value of an option of the post: 1 or 0 for yes and no, a number, a length in the unit of the CL file, or the text of a choice",
     ),
     extension("SIZEF", "name", FunctionKind::Size, "number of elements of an array or data table"),
     extension(

@@ -84,6 +84,7 @@ fn show(module: &Module, op: Op) -> String {
         Op::HasWord { dst, word } => format!("{} = has #{word}", n(dst)),
         Op::LastWritten { dst, letter } => format!("{} = last {}", n(dst), n(letter)),
         Op::NamedCommon { dst, name } => format!("{} = common {}", n(dst), n(name)),
+        Op::PostOption { dst, name } => format!("{} = option {}", n(dst), n(name)),
         Op::NextMotion { dst, word } => format!("{} = next coordinate {word}", n(dst)),
         Op::ToolDiameter { dst } => format!("{} = diameter of the tool", n(dst)),
         Op::NextTool { dst } => format!("{} = next tool", n(dst)),

@@ -6,6 +6,7 @@ use fil_diag::Diag;
 
 use crate::debug::Probe;
 use crate::errors::RunCode;
+use crate::functions::Returned;
 use crate::machine::{Values, View};
 use crate::moment::Moment;
 use crate::totals::{TotalsOf, TotalsText, TotalsWord};
@@ -167,6 +168,11 @@ pub trait Host {
 
     /// Value of a common location by its name; `None` where there is no such name.
     fn named_common(&mut self, _name: &str) -> Option<Result<f64, Box<Diag>>> {
+        None
+    }
+
+    /// Value of an option of the post by its name; `None` where there is no such name.
+    fn post_option(&mut self, _name: &str) -> Option<Result<Returned, Box<Diag>>> {
         None
     }
 

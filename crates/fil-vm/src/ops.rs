@@ -75,6 +75,8 @@ pub enum Op {
     LastWritten { dst: Reg, letter: Reg },
     /// `dst = COMF('name')`; `name` is a register.
     NamedCommon { dst: Reg, name: Reg },
+    /// `dst = OPTIONF('name')`; `name` is a register.
+    PostOption { dst: Reg, name: Reg },
     /// `dst = NEXTF(word)`
     NextMotion { dst: Reg, word: u16 },
     /// `dst = PREVF(word)`

@@ -361,6 +361,17 @@ struct filpost_error *filpost_builder_strict(struct filpost_builder *builder, bo
 struct filpost_error *filpost_builder_allow(struct filpost_builder *builder, const char *code);
 
 /*
+ Gives an option of the post its value, as `filpost post --option preload=no` does; an option
+ that the post lacks is refused when the program is built.
+
+ # Safety
+ `builder` is live; `name` and `value` end with a NUL.
+ */
+struct filpost_error *filpost_builder_option(struct filpost_builder *builder,
+                                             const char *name,
+                                             const char *value);
+
+/*
  Sets the level of a code, `E0532` or `all`: `allow`, `warn` or `deny`. Levels of single codes
  win over that of all, and both over those of the machine.
 

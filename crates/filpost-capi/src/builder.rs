@@ -180,6 +180,25 @@ pub unsafe extern "C" fn filpost_builder_allow(
     })
 }
 
+/// Gives an option of the post its value, as `filpost post --option preload=no` does; an option
+/// that the post lacks is refused when the program is built.
+///
+/// # Safety
+/// `builder` is live; `name` and `value` end with a NUL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn filpost_builder_option(
+    builder: *mut Builder,
+    name: *const c_char,
+    value: *const c_char,
+) -> *mut Error {
+    guarded(|| {
+        // SAFETY: the caller promises what `text` asks for.
+        let (name, value) = unsafe { (pointer::text(name, "name")?, pointer::text(value, "value")?) };
+        // SAFETY: the caller promises what `change` asks for.
+        unsafe { change(builder, |builder| builder.option(name, value)) }
+    })
+}
+
 /// Sets the level of a code, `E0532` or `all`: `allow`, `warn` or `deny`. Levels of single codes
 /// win over that of all, and both over those of the machine.
 ///

@@ -54,8 +54,8 @@ pub enum Command {
     Trace(TraceArgs),
     /// Explain an error code, a setting, a word, a function, a G or M code, or a ready post
     Explain(ExplainArgs),
-    /// List the ready posts
-    Posts,
+    /// List the ready posts, or the options of one
+    Posts(PostsArgs),
     /// Import and show machine settings
     Machine(MachineArgs),
     /// Post a case at each save, and show what has changed
@@ -90,6 +90,26 @@ pub struct Chosen {
     /// One more setting on top (may be given again)
     #[arg(long, value_name = "KEY=VALUE", value_parser = names::setting(), hide_possible_values = true)]
     pub set: Vec<String>,
+    /// An option of the post; `filpost posts POST` lists them (may be given again)
+    #[arg(long, value_name = "NAME=VALUE", value_parser = option)]
+    pub option: Vec<(String, String)>,
+}
+
+fn option(text: &str) -> Result<(String, String), String> {
+    let given = text.split_once('=').filter(|(name, _)| !name.trim().is_empty());
+    let given = given.map(|(name, value)| (name.trim().to_string(), value.trim().to_string()));
+    given.ok_or_else(|| "write NAME=VALUE, as preload=no".to_string())
+}
+
+/// `filpost posts`
+#[derive(Debug, ClapArgs)]
+pub struct PostsArgs {
+    /// The post whose options are listed: a ready post or a folder with machine.toml
+    #[arg(value_name = "POST")]
+    pub post: Option<String>,
+    /// Write JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `filpost new`

@@ -103,12 +103,12 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Test(args) => test::run(args),
         Command::Trace(args) => trace::run(args),
         Command::Explain(args) => explain::run(&args.subject),
+        Command::Posts(args) => ready_posts::run(args),
         Command::Machine(args) => machine::run(args),
         Command::Watch(args) => watch::run(args),
         Command::Lsp => Ok(served(filpost_lsp::serve_stdio())),
         Command::Dap => Ok(served(filpost_dap::serve_stdio())),
         Command::New(args) => new::run(args),
-        Command::Posts => ready_posts::run(),
         Command::Man { command } => manual::run(command.as_deref()),
         Command::Completions { shell } => {
             let mut text = Vec::new();

@@ -63,7 +63,7 @@ impl Named {
     }
 
     /// Adds the FIL files and lets INCLUD read files beside them.
-    fn with_fil(mut self, encoding: Option<&str>) -> Result<Named, Error> {
+    pub fn with_fil(mut self, encoding: Option<&str>) -> Result<Named, Error> {
         for path in &self.fil {
             let text = files::read_text(path, encoding)?;
             self.builder = self.builder.fil(&path.display().to_string(), &text);
@@ -92,7 +92,7 @@ pub fn named(chosen: &Chosen, encoding: Option<&str>) -> Result<Option<Named>, E
         (Some(_), Some(machine)) => over(named, machine, encoding)?,
         _ => named,
     };
-    Ok(Some(with_settings(named, &chosen.set)))
+    Ok(Some(with_settings(named, chosen)))
 }
 
 /// Lays the settings of `-m` over the post of `-p`.
@@ -183,16 +183,16 @@ pub fn machine(chosen: &Chosen, encoding: Option<&str>, from: &From) -> Result<N
     match from {
         From::CommandLine => {
             let named = named(chosen, encoding)?;
-            Ok(named.unwrap_or_else(|| with_settings(generic(), &chosen.set)))
+            Ok(named.unwrap_or_else(|| with_settings(generic(), chosen)))
         }
         From::ClFile(choice, machin) => {
             let named = asked_for(choice, machin.as_ref(), encoding)?;
-            Ok(with_settings(named, &chosen.set))
+            Ok(with_settings(named, chosen))
         }
         From::Program(family) => {
             let name = ready::generic_for(*family);
             let title = format!("{name} (the program is {}; no post is named)", family.title());
-            Ok(with_settings(Named::new(Program::builder().ready(name), title), &chosen.set))
+            Ok(with_settings(Named::new(Program::builder().generic(name), title), chosen))
         }
     }
 }
@@ -221,7 +221,7 @@ pub fn for_run(
 /// The post where nothing names one.
 fn generic() -> Named {
     let title = format!("{} (no post is named)", ready::GENERIC_MILL);
-    Named::new(Program::builder().ready(ready::GENERIC_MILL), title)
+    Named::new(Program::builder().generic(ready::GENERIC_MILL), title)
 }
 
 /// The readings of `--compat`, or the built-in ones.
@@ -298,15 +298,18 @@ fn asked_for(
             if let Some(word) = turning {
                 why.push_str(&format!("; {word} says turning"));
             }
-            Ok(Named::new(Program::builder().ready(name), format!("{name} ({why})")))
+            Ok(Named::new(Program::builder().generic(name), format!("{name} ({why})")))
         }
         _ => unreachable!("select knows no other choice"),
     }
 }
 
-fn with_settings(mut named: Named, settings: &[String]) -> Named {
-    for setting in settings {
+fn with_settings(mut named: Named, chosen: &Chosen) -> Named {
+    for setting in &chosen.set {
         named.builder = named.builder.set(setting);
+    }
+    for (name, value) in &chosen.option {
+        named.builder = named.builder.option(name, value);
     }
     named
 }

@@ -19,6 +19,7 @@ pub struct Parts {
     option_file: Option<NamedText>,
     over: Vec<NamedText>,
     settings: Vec<String>,
+    options: Vec<(String, String)>,
     fil: Vec<NamedText>,
     functions: Vec<(String, u16, Py<PyAny>)>,
     limits: Vec<(String, u64)>,
@@ -55,6 +56,9 @@ fn builder(py: Python<'_>, parts: Parts) -> PyResult<Builder> {
     }
     for setting in &parts.settings {
         builder = builder.set(setting);
+    }
+    for (name, value) in &parts.options {
+        builder = builder.option(name, value);
     }
     for (name, text) in &parts.fil {
         builder = builder.fil(name, text);

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use fil_cl::Vocabulary;
 use fil_diag::{Code, Diag, Level, Levels};
 use fil_machine::locations::INPUT_CREO_RECORDS;
+use fil_machine::post_options::{GivenOption, PostOptions};
 use fil_machine::{Commons, contradictions, files as settings};
 use fil_post::FilLine;
 use fil_post::warnings::AllowedLines;
@@ -27,8 +28,16 @@ use crate::script_files::Folders;
 /// Where the settings of the machine come from.
 enum Machine {
     Ready(String),
-    Toml { name: String, text: String },
-    OptionFile { name: String, text: String },
+    /// A ready post that nothing names: its options have the defaults of a base.
+    Generic(String),
+    Toml {
+        name: String,
+        text: String,
+    },
+    OptionFile {
+        name: String,
+        text: String,
+    },
     Commons(Box<Commons>),
 }
 
@@ -37,6 +46,7 @@ impl Machine {
     fn name(&self) -> Option<String> {
         match self {
             Machine::Ready(name)
+            | Machine::Generic(name)
             | Machine::Toml { name, .. }
             | Machine::OptionFile { name, .. } => Some(name.clone()),
             Machine::Commons(_) => None,
@@ -51,6 +61,7 @@ pub struct Builder {
     /// Name and text of each machine.toml laid over the machine.
     over: Vec<(String, String)>,
     settings: Vec<String>,
+    options: Vec<GivenOption>,
     fil: Vec<(String, String)>,
     limits: Limits,
     compat: CompatFile,
@@ -76,6 +87,7 @@ impl Builder {
             machine: None,
             over: Vec::new(),
             settings: Vec::new(),
+            options: Vec::new(),
             fil: Vec::new(),
             limits: Limits::default(),
             compat: CompatFile::default(),
@@ -96,6 +108,13 @@ impl Builder {
     /// A post inside the crate, by its name in [`ready::READY`].
     pub fn ready(mut self, name: &str) -> Self {
         self.machine = Some(Machine::Ready(name.into()));
+        self
+    }
+
+    /// The same where nothing names a post: it writes the plain form of a program unless options
+    /// ask for another.
+    pub fn generic(mut self, name: &str) -> Self {
+        self.machine = Some(Machine::Generic(name.into()));
         self
     }
 
@@ -128,6 +147,24 @@ impl Builder {
     /// One more setting on top, `key=value` with a key of `machine.toml`.
     pub fn set(mut self, setting: &str) -> Self {
         self.settings.push(setting.into());
+        self
+    }
+
+    /// The value of an option of the post: of those given for one option the last counts, and it
+    /// wins over `[options]` of a `machine.toml`.
+    ///
+    /// ```
+    /// use filpost::Program;
+    ///
+    /// let machine = "base = 'fanuc-mill'\n[option.step]\ntype = 'integer'\ndefault = 10\n\
+    ///                group = 'formats'\nhelp = 'Step of N'\nset = 'seqno.increment'\n";
+    /// let builder = Program::builder().machine("machine.toml", machine).option("step", "5");
+    /// let program = builder.build()?;
+    /// assert_eq!(program.options()[0].value.to_string(), "5");
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    pub fn option(mut self, name: &str, value: &str) -> Self {
+        self.options.push(GivenOption { name: name.into(), text: value.into(), place: None });
         self
     }
 
@@ -278,7 +315,7 @@ impl Builder {
     /// names of added functions; E0701 for a granted folder that is not there.
     pub fn build(self) -> Result<Program, Error> {
         let folders = self.folders()?;
-        let post = post(self.machine, &self.over, &self.settings, &self.compat.without_effect);
+        let post = post(&self.layers(), self.machine.as_ref());
         let mut vocabulary = Vocabulary::new();
         let files: Vec<FilFile<'_>> =
             self.fil.iter().map(|(name, text)| FilFile { name, text }).collect();
@@ -338,9 +375,19 @@ impl Builder {
     /// # Errors
     /// All that is wrong with the machine and the settings.
     pub fn build_machine(self) -> Result<Commons, Error> {
-        let without_effect = &self.compat.without_effect;
-        let made = commons_with(self.machine, &self.over, &self.settings, without_effect);
+        let made = commons_with(&self.layers(), self.machine.as_ref());
         made.map(|(commons, _)| commons).map_err(Error::Setup)
+    }
+
+    /// What is laid over the machine.
+    fn layers(&self) -> Layers<'_> {
+        Layers {
+            over: &self.over,
+            settings: &self.settings,
+            options: &self.options,
+            fil: &self.fil,
+            without_effect: &self.compat.without_effect,
+        }
     }
 
     /// The granted folders; `None` without any.
@@ -383,41 +430,69 @@ fn at_levels(warnings: Vec<Diag>, levels: &Levels) -> Result<Vec<Diag>, Error> {
     if errors.is_empty() { Ok(kept) } else { Err(Error::Setup(errors)) }
 }
 
-/// The post of a machine with settings on top, and the warnings of both.
+/// What is laid over a machine.
+struct Layers<'b> {
+    over: &'b [(String, String)],
+    settings: &'b [String],
+    options: &'b [GivenOption],
+    fil: &'b [(String, String)],
+    without_effect: &'b [String],
+}
+
+impl Layers<'_> {
+    /// All values of options, for a machine with this text; the later one counts.
+    fn options(&self, machine: Option<&(&str, &str)>, is_base: bool) -> PostOptions {
+        let over = self.over.iter().map(|(name, text)| (name.as_str(), text.as_str()));
+        let texts = machine.copied().into_iter().chain(over);
+        let of_settings = self.settings.iter().map(|setting| ("--set", setting.as_str()));
+        let given = texts.chain(of_settings);
+        let mut given: Vec<GivenOption> =
+            given.flat_map(|(name, text)| settings::given_options(name, text)).collect();
+        given.extend_from_slice(self.options);
+        let legacy = self.over.iter().any(|(_, text)| settings::is_option_text(text));
+        PostOptions::given(given, is_base || legacy)
+    }
+}
+
+/// The post of a machine with what is laid over it, and the warnings of both.
 ///
 /// # Errors
 /// As [`commons_with`].
 fn post(
-    machine: Option<Machine>,
-    over: &[(String, String)],
-    on_top: &[String],
-    without_effect: &[String],
+    layers: &Layers<'_>,
+    machine: Option<&Machine>,
 ) -> Result<(fil_post::Post, Vec<Diag>), Vec<Diag>> {
-    let (commons, warnings) = commons_with(machine, over, on_top, without_effect)?;
+    let (commons, warnings) = commons_with(layers, machine)?;
     allow::refuse_unknown(commons.levels())?;
     let post = fil_post::Post::new(commons).map_err(|diag| vec![*diag])?;
     Ok((post, warnings))
 }
 
-/// A machine with settings on top, and the warnings of both.
+/// A machine with what is laid over it, and the warnings of both.
 ///
 /// # Errors
-/// All that is wrong with them; settings that contradict each other, where each alone
-/// is right.
+/// All that is wrong with them; options that are not declared; settings that contradict each
+/// other, where each alone is right.
 fn commons_with(
-    machine: Option<Machine>,
-    over: &[(String, String)],
-    on_top: &[String],
-    without_effect: &[String],
+    layers: &Layers<'_>,
+    machine: Option<&Machine>,
 ) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {
-    let machine = machine.unwrap_or(Machine::Ready(ready::GENERIC_MILL.into()));
+    let generic = Machine::Generic(ready::GENERIC_MILL.into());
+    let machine = machine.unwrap_or(&generic);
     let name = machine.name();
-    let (mut commons, mut warnings) = commons_of(machine)?;
-    without_effect.iter().for_each(|word| commons.list_without_effect(word));
+    let (mut commons, mut warnings) = commons_of(machine, layers)?;
+    layers.without_effect.iter().for_each(|word| commons.list_without_effect(word));
     let mut errors = Vec::new();
-    let over = over.iter().map(|(name, text)| settings::lay_over(&mut commons, name, text));
+    let over = layers.over.iter();
+    let over = over.map(|(name, text)| settings::lay_over(&mut commons, name, text));
     let mut said: Vec<Result<Vec<Diag>, Vec<Diag>>> = over.collect();
-    said.extend(on_top.iter().map(|setting| settings::apply_setting(&mut commons, setting)));
+    let fil = layers.fil.iter().map(|(name, text)| {
+        settings::declare_fil_options(&mut commons, name, text).map(|()| Vec::new())
+    });
+    said.extend(fil);
+    let set = layers.settings.iter();
+    said.extend(set.map(|setting| settings::apply_setting(&mut commons, setting)));
+    said.push(commons.options().refuse_unknown().map(|()| Vec::new()));
     for said in said {
         match said {
             Ok(said) => warnings.extend(said),
@@ -437,23 +512,37 @@ fn commons_with(
     Ok((commons, warnings))
 }
 
-fn commons_of(machine: Machine) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {
+fn commons_of(machine: &Machine, layers: &Layers<'_>) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {
+    let no_base = |_: &str| None;
     match machine {
-        Machine::Commons(commons) => Ok((*commons, Vec::new())),
-        Machine::Toml { name, text } => settings::read_toml_with(&name, &text, &|base| {
-            ready::find(base).map(|post| post.machine)
-        }),
-        Machine::OptionFile { name, text } => {
-            settings::read_option_file(&name, &text).map(|file| (file.commons, file.warnings))
+        Machine::Commons(commons) => {
+            let mut commons = (**commons).clone();
+            commons.options_mut().give(layers.options(None, false));
+            Ok((commons, Vec::new()))
         }
-        Machine::Ready(name) => {
-            let post = ready::find(&name).ok_or_else(|| {
+        Machine::Toml { name, text } => {
+            let bases = |base: &str| ready::find(base).map(|post| post.machine);
+            let options = layers.options(Some(&(name, text)), false);
+            settings::read_toml_given(name, text, &bases, options)
+        }
+        Machine::OptionFile { name, text } => settings::read_option_file(name, text).map(|file| {
+            let mut commons = file.commons;
+            commons.options_mut().give(layers.options(None, true));
+            (commons, file.warnings)
+        }),
+        Machine::Ready(name) | Machine::Generic(name) => {
+            let post = ready::find(name).ok_or_else(|| {
                 let names: Vec<&str> = ready::READY.iter().map(|post| post.name).collect();
                 let diag = Diag::new(RunCode::NoReadyPost, format!("no ready post `{name}`"))
                     .hint(format!("there are {}", names.join(", ")));
                 vec![diag]
             })?;
-            settings::read_toml(post.name, post.machine)
+            let options = layers.options(None, matches!(machine, Machine::Generic(_)));
+            let read = settings::read_toml_given(post.name, post.machine, &no_base, options);
+            read.map(|(mut commons, warnings)| {
+                commons.options_mut().is_base = false;
+                (commons, warnings)
+            })
         }
     }
 }

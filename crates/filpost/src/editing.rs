@@ -232,4 +232,9 @@ impl Host for WhileWriting<'_> {
     fn named_common(&mut self, name: &str) -> Option<Result<f64>> {
         fil_machine::in_force(self.commons, name)
     }
+
+    fn post_option(&mut self, name: &str) -> Option<Result<fil_vm::Returned>> {
+        let option = self.commons.options().find(name)?;
+        Some(crate::outside::option_value(&option.value, None))
+    }
 }

@@ -228,6 +228,11 @@ impl Program {
         Ok(Program { shared: Arc::new(shared) })
     }
 
+    /// The options of the post, with their values.
+    pub fn options(&self) -> &[fil_machine::post_options::PostOption] {
+        self.commons().options().all()
+    }
+
     /// Name and text of the FIL files, by the numbers in [`crate::FilLine::file`].
     pub fn fil_texts(&self) -> Vec<(String, Arc<str>)> {
         let files = self.shared.module.files.iter();

@@ -345,6 +345,10 @@ const EXAMPLES: &[(&str, &str)] = &[
         "COMF",
         "CIMFIL/ON,FEDRAT\nIF(POSTF(7,4).GT.COMF('feed.upm_max'))OPSTOP\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
     ),
+    (
+        "OPTIONF",
+        "$$ filpost: option finish-stop = { type = \"bool\", default = false, group = \"stops\", help = \"Stop before finishing\" }\nCIMFIL/ON,PPRINT\nTT=TEXT/CLW\nIF(INDXF(TT,'FINISH').GT.0.AND.OPTIONF('finish-stop').EQ.1)STOP\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
     ("SIZEF", "RESERV/DIA,20\nDO/LA,II=1,SIZEF(DIA)\nDIA(II)=0\nLA) CONTIN\nFINI\n"),
     (
         "INDXF",

@@ -10,7 +10,9 @@ mod toml_read;
 mod toml_write;
 
 pub use option_file::{OptionFile, is_option_text, read_option_file};
-pub use toml_read::{apply_setting, read_toml, read_toml_with};
+pub use toml_read::{
+    apply_setting, declare_fil_options, given_options, read_toml, read_toml_given, read_toml_with,
+};
 pub use toml_write::write_toml;
 
 /// Lays a `machine.toml` or an option file over the settings of a machine, told by the text.

@@ -48,6 +48,10 @@ impl Compiler<'_> {
                 let name = self.expression(name);
                 self.chunk.emit(Op::NamedCommon { dst, name });
             }
+            (FunctionKind::PostOption, [name]) => {
+                let name = self.expression(name);
+                self.chunk.emit(Op::PostOption { dst, name });
+            }
             (FunctionKind::Couplet, [word, default @ ..]) if default.len() <= 1 => {
                 let Some(word) = self.word(builtin, word) else { return };
                 let op = match default.first() {

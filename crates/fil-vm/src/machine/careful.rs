@@ -50,6 +50,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             Op::HasWord { dst, word } => (dst, Number(f64::from(u8::from(self.has_word(word)?)))),
             Op::LastWritten { dst, letter } => (dst, self.last_written(registers, letter)?),
             Op::NamedCommon { dst, name } => (dst, self.named_common(registers, name)?),
+            Op::PostOption { dst, name } => (dst, self.post_option(registers, name)?),
             Op::NextMotion { dst, word } => (dst, self.neighbour(true, word)?),
             Op::ToolDiameter { dst } => {
                 (dst, Number(self.host.tool_diameter(self.vocab)?.unwrap_or(EMPTY)))

@@ -333,6 +333,24 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         }
     }
 
+    pub(super) fn post_option(
+        &mut self,
+        registers: &mut Registers,
+        name: Reg,
+    ) -> Result<Value, Box<Diag>> {
+        let Text(id) = self.read(registers, name)? else {
+            return Err(fault(RunCode::WrongType, "OPTIONF needs the name as a text"));
+        };
+        let name = self.state.texts.get(id);
+        match self.host.post_option(name) {
+            Some(value) => match value? {
+                Returned::Number(number) => Ok(Number(number)),
+                Returned::Text(text) => self.made(registers, &text),
+            },
+            None => Err(fault(RunCode::Missing, format!("the post has no option '{name}'"))),
+        }
+    }
+
     pub(super) fn neighbour(&mut self, next: bool, word: u16) -> Result<Value, Box<Diag>> {
         let side = if next { "next" } else { "previous" };
         match self.host.neighbour(next, usize::from(word), self.vocab)? {

@@ -25,6 +25,16 @@ pub fn schema() -> Value {
     }
     properties.insert("address".into(), addresses());
     properties.insert("levels".into(), levels());
+    let value = json!({"type": ["string", "number", "boolean"]});
+    properties.insert(
+        "options".into(),
+        json!({
+            "type": "object",
+            "description": "Values of options of the post: `filpost posts NAME` lists them.",
+            "additionalProperties": value,
+        }),
+    );
+    properties.insert("option".into(), declarations());
     for kind in ["int", "rel", "dbl"] {
         let numbers = json!({"type": "object", "patternProperties": {"^[0-9]+$": number()}});
         inner(&mut properties, "imported").insert(kind.into(), numbers.clone());
@@ -87,6 +97,39 @@ fn levels() -> Value {
             "all": level,
         },
         "patternProperties": {"^[EW][0-9]{4}$": level},
+        "additionalProperties": false,
+    })
+}
+
+/// `[option.NAME]`: the declaration of an option of the post.
+fn declarations() -> Value {
+    let text = json!({"type": "string"});
+    let value = json!({"type": ["string", "number", "boolean"]});
+    let settings = json!({"type": "object"});
+    json!({
+        "type": "object",
+        "description": "Options of the post, which `--option NAME=VALUE` and `[options]` choose.",
+        "patternProperties": {"^[a-z0-9-]+$": {
+            "type": "object",
+            "properties": {
+                "type": {"enum": ["bool", "integer", "length", "choice", "text"]},
+                "default": value,
+                "base_default": value,
+                "group": text,
+                "help": text,
+                "min": {"type": "number"},
+                "max": {"type": "number"},
+                "set": text,
+                "yes": settings,
+                "no": settings,
+                "choices": {"anyOf": [
+                    {"type": "array", "items": text},
+                    {"type": "object", "additionalProperties": settings},
+                ]},
+            },
+            "required": ["type", "default", "group", "help"],
+            "additionalProperties": false,
+        }},
         "additionalProperties": false,
     })
 }

@@ -20,8 +20,8 @@ pub fn run(chosen: &Chosen, prefix: Option<&str>, all: bool) -> Result<(), Error
     let is_chosen = chosen.post.is_some() || chosen.machine.is_some();
     let machine = prefix.filter(|name| !is_chosen && is_machine(name));
     if let Some(name) = machine {
-        let set = chosen.set.clone();
-        return run(&Chosen { set, ..diff::chosen(Path::new(name)) }, None, all);
+        let (set, option) = (chosen.set.clone(), chosen.option.clone());
+        return run(&Chosen { set, option, ..diff::chosen(Path::new(name)) }, None, all);
     }
     let program = program(chosen)?;
     if let Some(prefix) = prefix.filter(|prefix| !begins_a_setting(prefix)) {
@@ -61,8 +61,10 @@ fn program(chosen: &Chosen) -> Result<Program, Error> {
     let builder = match setup::named(chosen, None)? {
         Some(named) => named.builder,
         None => {
-            let generic = Program::builder().ready(ready::GENERIC_MILL);
-            chosen.set.iter().fold(generic, |builder, setting| builder.set(setting))
+            let generic = Program::builder().generic(ready::GENERIC_MILL);
+            let set = chosen.set.iter().fold(generic, |builder, setting| builder.set(setting));
+            let given = chosen.option.iter();
+            given.fold(set, |builder, (name, value)| builder.option(name, value))
         }
     };
     let program = builder.build()?;
@@ -124,6 +126,7 @@ fn differences(out: &mut dyn Write, commons: &Commons) -> io::Result<()> {
     }
     lines.extend(texts(commons));
     lines.extend(levels(commons.levels()));
+    lines.extend(options(commons));
     if lines.is_empty() {
         lines.push("every setting that has an effect is that of the default machine".into());
     }
@@ -138,6 +141,14 @@ fn differences(out: &mut dyn Write, commons: &Commons) -> io::Result<()> {
 /// A limit of travel, which acts where `limits.check` is on.
 fn is_travel(row: &Location) -> bool {
     row.name.starts_with("limits.") && (row.name.ends_with("_min") || row.name.ends_with("_max"))
+}
+
+/// Values of the options of the post.
+fn options(commons: &Commons) -> impl Iterator<Item = String> {
+    commons.options().all().iter().map(|option| {
+        let given = if option.is_given { " (given)" } else { "" };
+        format!("{:<28} {}{given}", format!("options.{}", option.name), option.value)
+    })
 }
 
 /// Levels of findings.

@@ -102,6 +102,12 @@ impl Making {
         list(&mut text, "ignore", &args.ignore);
         let origin = format!("{}, proven on the machine", nc.display());
         let _ = writeln!(text, "origin = {}", quoted(&origin));
+        if !args.chosen.option.is_empty() {
+            text.push_str("\n[options]\n");
+        }
+        for (name, value) in &args.chosen.option {
+            let _ = writeln!(text, "{name} = {}", quoted(value));
+        }
         Ok(text)
     }
 

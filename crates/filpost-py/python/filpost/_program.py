@@ -23,6 +23,7 @@ class _Parts:
     option_file: tuple[str, str] | None
     over: list[tuple[str, str]]
     settings: list[str]
+    options: list[tuple[str, str]]
     fil: list[tuple[str, str]]
     functions: list[tuple[str, int, Callable[..., Any]]]
     limits: list[tuple[str, int]]
@@ -60,6 +61,8 @@ class Program:
 
     over, settings
         further ``machine.toml``; settings as ``{"rapid.split": 0}``
+    options
+        values of options of the post: ``{"style": "plain", "preload": False}``
     fil
         FIL files, each ``(name, text)`` or a ``pathlib.Path``
     functions
@@ -91,6 +94,7 @@ class Program:
         option_file: Named | None = None,
         over: Iterable[Named] = (),
         settings: Mapping[str, Any] | None = None,
+        options: Mapping[str, Any] | None = None,
         fil: Iterable[Named] = (),
         functions: Mapping[str, Any] | None = None,
         limits: Mapping[str, int] | None = None,
@@ -112,6 +116,7 @@ class Program:
             option_file=None if option_file is None else _given.named(option_file, "UNCX01.P01"),
             over=[_given.named(one, "machine.toml") for one in _files(over, "over")],
             settings=[f"{key}={_setting(value)}" for key, value in (settings or {}).items()],
+            options=[(str(name), _option(value)) for name, value in (options or {}).items()],
             fil=[_given.named(one, "post.fil") for one in _files(fil, "fil")],
             functions=_given.functions(dict(functions or {})),
             limits=[(name, int(value)) for name, value in (limits or {}).items()],
@@ -254,6 +259,12 @@ def _files(given: Any, what: str) -> list[Any]:
 def _setting(value: Any) -> str:
     if isinstance(value, bool):
         return "1" if value else "0"
+    return str(value)
+
+
+def _option(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     return str(value)
 
 

@@ -2,7 +2,7 @@
 //! program it must give.
 //!
 //! `case.toml`: `cl`; `dialect` (of the CL file, where it is not recognized); `ready`, `machine` (machine.toml) or `option_file`; `fil` (a file or a
-//! list); `set` (list of `key=value`); `compat`; `strict`; `allow`; `[levels]`; `read` (a folder for scripts);
+//! list); `set` (list of `key=value`); `[options]` of the post; `compat`; `strict`; `allow`; `[levels]`; `read` (a folder for scripts);
 //! `clock`; `units` (of a CL file without UNITS); `expect` (NC file) or `expect_error` (code); `listing` (its expected text);
 //! `tolerance`, `ignore`, `diameter` (how the NC programs are compared; letter by letter
 //! when none is given); `expect_warnings`; `expect_at` (`file:line` of the error or of the
@@ -60,6 +60,9 @@ pub struct CaseFile {
     /// Settings on top.
     #[serde(default)]
     pub set: Vec<String>,
+    /// Values of options of the post.
+    #[serde(default, deserialize_with = "options")]
+    pub options: BTreeMap<String, String>,
     /// A compat file.
     pub compat: Option<String>,
     /// A folder that scripts may read.
@@ -112,6 +115,18 @@ pub struct CaseFile {
 fn dialect<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<ClDialect>, D::Error> {
     let name = String::deserialize(deserializer)?;
     name.parse().map(Some).map_err(D::Error::custom)
+}
+
+/// Values of options: a text, a number, true or false.
+fn options<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<BTreeMap<String, String>, D::Error> {
+    let table = toml::Table::deserialize(deserializer)?;
+    let shown = |value: toml::Value| match value {
+        toml::Value::String(text) => text,
+        other => other.to_string(),
+    };
+    Ok(table.into_iter().map(|(name, value)| (name, shown(value))).collect())
 }
 
 impl CaseFile {

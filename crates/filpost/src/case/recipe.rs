@@ -27,6 +27,7 @@ pub(super) struct Recipe {
     option_file: Option<Named>,
     fil: Vec<Named>,
     settings: Vec<String>,
+    options: BTreeMap<String, String>,
     compat: Option<Named>,
     strict: bool,
     allow: Vec<String>,
@@ -93,6 +94,7 @@ impl Recipe {
             option_file: file.option_file.as_ref().map(text).transpose()?,
             fil: file.fil.iter().map(script).collect::<Result<_, _>>()?,
             settings: file.set.clone(),
+            options: file.options.clone(),
             compat: file.compat.as_ref().map(text).transpose()?,
             strict: file.strict,
             allow: file.allow.clone(),
@@ -127,6 +129,9 @@ impl Recipe {
         }
         for setting in &self.settings {
             builder = builder.set(setting);
+        }
+        for (name, value) in &self.options {
+            builder = builder.option(name, value);
         }
         if let Some((name, text)) = &self.compat {
             builder = builder.compat(crate::read_compat(name, text).map_err(Error::setup)?);

@@ -5,15 +5,15 @@ use fil_diag::Diag;
 use fil_syntax::tree::{BinaryOp, Expr, ExprKind, Item, StmtKind, UnaryOp};
 use fil_vm::builtins::{BUILTINS, FunctionKind};
 use fil_vm::errors::RunCode as VmCode;
-use fil_vm::{EMPTY, Held, PostfOp};
+use fil_vm::{EMPTY, Held, PostfOp, Returned};
 
 use super::DebugState;
-use crate::outside::common_kind;
+use crate::outside::{common_kind, option_value};
 
 type Result<T> = std::result::Result<T, Box<Diag>>;
 
 /// Evaluates an expression of FIL: names, arrays, numbers, texts, conditions, functions of
-/// numbers, ICODEF, LASTF, COMF, COUPLF, HASF, and POSTF 1, 4 to 7, 9 and 17.
+/// numbers, ICODEF, LASTF, COMF, OPTIONF, COUPLF, HASF, and POSTF 1, 4 to 7, 9 and 17.
 ///
 /// # Errors
 /// What is no expression, and what could change the run.
@@ -192,6 +192,16 @@ fn call(name: &str, args: &[Expr], state: &DebugState<'_, '_>) -> Result<Held> {
         (FunctionKind::NamedCommon, [name]) => match value_of(name, state)? {
             Held::Text(name) => common_named(state, &name),
             _ => refuse("COMF needs the name as a text"),
+        },
+        (FunctionKind::PostOption, [name]) => match value_of(name, state)? {
+            Held::Text(name) => match state.commons().options().find(&name) {
+                Some(option) => Ok(match option_value(&option.value, state.unit())? {
+                    Returned::Number(number) => Held::Number(number),
+                    Returned::Text(text) => Held::Text(text),
+                }),
+                None => refuse(&format!("the post has no option '{name}'")),
+            },
+            _ => refuse("OPTIONF needs the name as a text"),
         },
         (FunctionKind::Postf, [which, rest @ ..]) => postf(which, rest, state),
         _ => refuse(&format!("{} is not evaluated here: it could change the run", builtin.call())),

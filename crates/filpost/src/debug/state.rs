@@ -3,7 +3,7 @@
 use fil_diag::Diag;
 use fil_machine::commons::EMPTY;
 use fil_machine::locations::TABLE;
-use fil_machine::{Commons, Kind, Letter};
+use fil_machine::{Commons, Kind, Letter, Unit};
 use fil_vm::View;
 
 use super::modes;
@@ -30,6 +30,14 @@ impl DebugState<'_, '_> {
         match &self.world {
             World::Post(post) => &post.control.commons,
             World::Writing(commons) => commons,
+        }
+    }
+
+    /// The unit of the CL file, where it is known; `None` while a macro edits what is written.
+    pub(crate) fn unit(&self) -> Option<Unit> {
+        match &self.world {
+            World::Post(post) => post.unit(),
+            World::Writing(_) => None,
         }
     }
 

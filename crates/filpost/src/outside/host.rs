@@ -4,11 +4,12 @@ use fil_cl::vocabulary::words;
 use fil_cl::{Record, Vocabulary, Word, keyed_cycle, record::kind};
 use fil_diag::Diag;
 use fil_machine::commons::EMPTY;
-use fil_machine::stored;
+use fil_machine::post_options::OptionValue;
+use fil_machine::{Unit, stored};
 use fil_post::FilLine;
 use fil_vm::{
-    CommonKind, Files, Host, Moment, SectionId, Site, TotalsOf, TotalsText, TotalsWord, Values,
-    View, debug::Probe,
+    CommonKind, Files, Host, Moment, Returned, SectionId, Site, TotalsOf, TotalsText, TotalsWord,
+    Values, View, debug::Probe,
 };
 
 use super::Outside;
@@ -177,6 +178,29 @@ impl Host for Outside<'_, '_> {
     fn named_common(&mut self, name: &str) -> Option<Result<f64, Box<Diag>>> {
         fil_machine::in_force(&self.post.control.commons, name)
     }
+
+    fn post_option(&mut self, name: &str) -> Option<Result<Returned, Box<Diag>>> {
+        let option = self.post.control.commons.options().find(name)?;
+        Some(option_value(&option.value, self.post.unit()))
+    }
+}
+
+/// What OPTIONF gives for a value; `unit` is that of the CL file, as far as it is known.
+///
+/// # Errors
+/// A length before the unit is known.
+pub(crate) fn option_value(value: &OptionValue, unit: Option<Unit>) -> Result<Returned, Box<Diag>> {
+    Ok(match (value, unit) {
+        (OptionValue::Bool(is_on), _) => Returned::Number(f64::from(u8::from(*is_on))),
+        (OptionValue::Integer(number), _) => Returned::Number(*number as f64),
+        (OptionValue::Length(length), Some(Unit::Mm)) => Returned::Number(*length),
+        (OptionValue::Length(length), Some(Unit::Inch)) => Returned::Number(length / 25.4),
+        (OptionValue::Length(_), None) => {
+            return fil_vm::errors::RunCode::Missing
+                .err("the unit of the CL file is not known here, so a length has no value yet");
+        }
+        (OptionValue::Choice(text) | OptionValue::Text(text), _) => Returned::Text(text.clone()),
+    })
 }
 
 /// A cycle that the script has written by position, as couplets; `None` for any other record.

@@ -5,7 +5,7 @@ mod host;
 mod taken;
 mod told;
 
-pub(crate) use host::common_kind;
+pub(crate) use host::{common_kind, option_value};
 use taken::Taken;
 
 use std::collections::HashSet;

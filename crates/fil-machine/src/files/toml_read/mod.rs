@@ -4,12 +4,16 @@
 //! `int.1870 = 1`, `rel.11 = 1.0`, `dbl.486 = 2.0`; `[address.X]` holds `slot`,
 //! `format`, `spec` and `char` of a letter; `blocks.start` and `blocks.end` are
 //! lists of texts, and so are `words.without_effect`, the major words that pass, and
-//! `verify.allowed_offsets`, what a program may choose unasked; `[levels]` sets levels of codes. A flag takes true or false, a letter or character a text of
+//! `verify.allowed_offsets`, what a program may choose unasked; `[levels]` sets levels of codes;
+//! `[option.NAME]` declares an option of the post and `[options]` gives values. A flag takes true or false, a letter or character a text of
 //! one character, and every setting takes `"none"` for absent.
 
 mod address;
 mod levels;
+mod options;
 mod values;
+
+pub use options::{declare_fil_options, given_options};
 
 use std::ops::Range;
 
@@ -22,6 +26,7 @@ use crate::chains;
 use crate::commons::{Commons, Kind};
 use crate::errors::MachineCode;
 use crate::locations::{self as loc, Location, default_commons};
+use crate::post_options::PostOptions;
 use crate::stored;
 use crate::user_blocks::{self, MAX_BLOCKS};
 
@@ -72,11 +77,31 @@ pub fn read_toml_with(
     text: &str,
     bases: &dyn Fn(&str) -> Option<&'static str>,
 ) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {
+    let given = options::given_options(file, text);
+    read_toml_given(file, text, bases, PostOptions::given(given, false))
+}
+
+/// The same with values for options of the post. What `[options]` of the text gives must be
+/// among them.
+///
+/// # Errors
+/// As [`read_toml_with`]; E0611 for a value that its option does not take. Values for options
+/// that are not declared are the caller's to refuse.
+pub fn read_toml_given(
+    file: &str,
+    text: &str,
+    bases: &dyn Fn(&str) -> Option<&'static str>,
+    given: PostOptions,
+) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {
     let (table, _) = DeTable::parse_recoverable(text);
     let base = table.get_ref().iter().find(|(key, _)| key.get_ref() == BASE);
     let mut commons = match base {
-        None => default_commons(),
-        Some((_, value)) => base_commons(file, text, value, bases)?,
+        None => {
+            let mut commons = default_commons();
+            *commons.options_mut() = given;
+            commons
+        }
+        Some((_, value)) => base_commons(file, text, value, bases, given)?,
     };
     let warnings = read_over(&mut commons, file, text, true)?;
     Ok((commons, warnings))
@@ -104,6 +129,7 @@ fn base_commons(
     text: &str,
     value: &Spanned<DeValue>,
     bases: &dyn Fn(&str) -> Option<&'static str>,
+    given: PostOptions,
 ) -> Result<Commons, Vec<Diag>> {
     let name = value.get_ref().as_str().unwrap_or_default();
     let Some(base) = bases(name) else {
@@ -112,7 +138,11 @@ fn base_commons(
                 .hint("base names a ready post: base = \"fanuc-mill\"");
         return Err(vec![*TomlReader::new(file, text).at(value.span(), diag)]);
     };
-    read_toml(name, base).map(|(commons, _)| commons)
+    let mut given = given;
+    given.is_base = true;
+    let (mut commons, _) = read_toml_given(name, base, &|_| None, given)?;
+    commons.options_mut().is_base = false;
+    Ok(commons)
 }
 
 /// Sets one setting from text, as `--set key=value` gives it; a value that is no TOML
@@ -153,6 +183,7 @@ fn read_over(
         }
         reader.before = address::cells(commons);
         reader.table(commons, table.get_ref(), "");
+        reader.options(commons, table.get_ref());
         reader.one_letter_a_position(commons);
     }
     reader.finish()
@@ -245,11 +276,14 @@ impl<'a> TomlReader<'a> {
                 "" => key.get_ref().to_string(),
                 prefix => format!("{prefix}.{}", key.get_ref()),
             };
+            if prefix.is_empty() && self.is_about(&name) {
+                continue;
+            }
             if prefix == "address" {
                 self.address(commons, key, value);
             } else if let DeValue::Table(inner) = value.get_ref() {
                 self.table(commons, inner, &name);
-            } else if !(prefix.is_empty() && self.is_about(&name)) {
+            } else {
                 let result = self.setting(commons, &name, key.span(), value);
                 self.noted(value.span(), result);
             }
@@ -258,7 +292,9 @@ impl<'a> TomlReader<'a> {
 
     /// True for a key that is no setting.
     fn is_about(&self, name: &str) -> bool {
-        ABOUT.contains(&name) || name == CHAIN || (name == BASE && self.takes_base)
+        ABOUT.contains(&name)
+            || [CHAIN, options::DECLARED, options::VALUES].contains(&name)
+            || (name == BASE && self.takes_base)
     }
 
     fn setting(
