@@ -6,6 +6,7 @@
 
 use fil_diag::{Levels, Result};
 
+use crate::effects::{Effect, Effects};
 use crate::errors::MachineCode;
 use crate::letter::Letter;
 use crate::post_options::PostOptions;
@@ -86,6 +87,8 @@ pub struct Commons {
     levels: Levels,
     /// Options of the post, with their values.
     options: PostOptions,
+    /// What calls and codes of the shop do.
+    effects: Effects,
     /// Letters that were given a tape position and no digits: bit n is letter n of the alphabet.
     wants_digits: u32,
 }
@@ -102,6 +105,7 @@ impl Commons {
             allowed_offsets: Vec::new(),
             levels: Levels::default(),
             options: PostOptions::default(),
+            effects: Effects::default(),
             wants_digits: 0,
         }
     }
@@ -171,6 +175,17 @@ impl Commons {
     /// The same, to be changed.
     pub fn options_mut(&mut self) -> &mut PostOptions {
         &mut self.options
+    }
+
+    /// What calls and codes of the shop do: `[effects]`.
+    pub fn effects(&self) -> &Effects {
+        &self.effects
+    }
+
+    /// Adds a rule of `[effects]`; false for a text that names no block.
+    pub fn add_effect(&mut self, said: &str, effect: Effect) -> bool {
+        self.generation = self.generation.wrapping_add(1);
+        self.effects.add(said, effect)
     }
 
     /// Work offsets by their names in a program (`G54`, `G54.1P3`), in capitals, that a

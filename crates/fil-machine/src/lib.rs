@@ -16,6 +16,7 @@ pub mod commons;
 pub mod contradictions;
 pub mod cycle_kind;
 pub mod digits;
+pub mod effects;
 pub mod errors;
 pub mod files;
 mod frame_rules;

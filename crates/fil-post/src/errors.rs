@@ -58,8 +58,8 @@ fil_diag::codes! {
             "Take the character out of the text.";
         /// A program number.
         ProgramNumber = 518, Error, "program number out of range",
-            "A program number has at most four digits.",
-            "Change the PARTNO text, or set program.number.";
+            "A program number has four digits on most controls, five or eight on some, and never more.",
+            "Set another program.number.";
         /// Compensation left on.
         CompensationOn = 519, Error, "cutter compensation is still on",
             "The control would go on to compensate with another tool, or alarm.",
@@ -256,6 +256,18 @@ fil_diag::codes! {
         Crowded = 542, Error, "functions that the control does not take in one block",
             "The control takes one preparatory function in a block, and each of these needs the words that stand there.",
             "Set mode.several_g of the machine, or tool.length_z, which calls the tool length in a block of its own.";
+        /// A pattern of `[effects]` matches.
+        EffectPattern = 546, Warning, "a pattern of [effects] says what a block does",
+            "A pattern may match a block that its author did not think of; what the rule says is then taken for granted.",
+            "Write the block itself under [effects], which goes before a pattern; [levels] W0546 = \"allow\" silences the warning.";
+        /// O0000 or O9001.
+        ReservedNumber = 548, Warning, "a program number that controls keep for others",
+            "O0000 is no number of a program, and O8000 to O9999 are macros of the machine's builder or protected programs: the control may refuse the program, or lose a macro by it.",
+            "Change the PARTNO text, or set program.number.";
+        /// An author's block within compensation or tool center point control.
+        AuthorChange = 547, Doubt, "an author's block changes what an active mode counts on",
+            "Cutter compensation and tool center point control go on behind the block with the tool, plane, axes or frame of before. Controls differ in what that does.",
+            "Put the block before the mode begins or behind its end.";
         /// Unknown major word.
         UnknownWord = 513, Error, "unknown word",
             "The post has no handler for this major word, and no table lists it as without effect. A misspelt GOTO would lose a motion.",

@@ -46,6 +46,8 @@ const DOUBTS: &[(PostCode, Defaults)] = &[
     (PostCode::LengthTaken, Defaults::DANGER),
     // Cutter compensation behind an unreadable block.
     (PostCode::CompensationLost, Defaults::DANGER),
+    // The tool, plane, axes or frame of an active mode, changed by an author's block.
+    (PostCode::AuthorChange, Defaults::DANGER),
     // An output macro or REPLAC took out a word that the post can't restate.
     (PostCode::EditedWord, Defaults::DANGER),
 ];
@@ -99,7 +101,8 @@ impl Control {
             return Ok(());
         }
         if diag.code.kind == CodeKind::Doubt {
-            diag.notes.push(how_to_allow(diag.code));
+            let block = self.warnings.unread_block.as_deref().filter(|_| by == Source::Author);
+            diag.notes.push(how_to_allow(diag.code, block));
         }
         match level {
             Level::Allow => Ok(()),
@@ -131,12 +134,27 @@ impl Control {
     }
 }
 
-/// The line that accepts a doubt.
-fn how_to_allow(code: &Code) -> String {
+/// The line that accepts a doubt, and the one that says what the author's block does, where that
+/// ends the doubt.
+fn how_to_allow(code: &Code, block: Option<&str>) -> String {
     let name = code.name();
-    format!(
-        "if it is right as it is: --allow {name}, or [levels] {name} = \"allow\" in machine.toml"
-    )
+    let level = format!("--allow {name}, or [levels] {name} = \"allow\" in machine.toml");
+    match block.zip(effects_that_help(code)) {
+        Some((block, effects)) => format!(
+            "if it is right as it is: {level}; or what the block does: [effects] {block:?} = \
+             {effects}"
+        ),
+        None => format!("if it is right as it is: {level}"),
+    }
+}
+
+/// The effects that leave nothing of a doubt about a block that can't be read.
+fn effects_that_help(code: &Code) -> Option<&'static str> {
+    let is = |doubt: PostCode| <&Code>::from(doubt) == code;
+    if is(PostCode::UnknownLevel) || is(PostCode::UnknownTurn) {
+        return Some("\"keeps position\" or \"returns clear\"");
+    }
+    is(PostCode::CompensationLost).then_some("\"nothing\"")
 }
 
 #[cfg(test)]

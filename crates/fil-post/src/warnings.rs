@@ -35,6 +35,8 @@ pub struct Warnings {
     pub allowed_lines: Arc<AllowedLines>,
     /// The last block of an author: INSERT, POSTN, PREFUN, a machine text, an edited block.
     pub author: Option<Cause>,
+    /// The last of them that can't be read, or calls a program.
+    pub unread_block: Option<String>,
     /// How many there were.
     pub author_blocks: u64,
     /// The block of an author that left the doubt which was denied.
@@ -47,6 +49,15 @@ impl Warnings {
     /// a thousand, so that memory does not grow with the CL file.
     pub fn add(&mut self, code: PostCode, message: String) {
         self.add_with(code, message, || None);
+    }
+
+    /// Warns once per code and subject, whatever the message.
+    pub fn add_once(&mut self, code: PostCode, subject: &str, message: String) {
+        let code: &'static Code = code.into();
+        if self.is_new(code, subject) {
+            let note = self.note();
+            self.push(Diag::new(code, message + note), None);
+        }
     }
 
     /// The same with a hint made for this case when the warning is a new one.

@@ -102,7 +102,7 @@ pub use fil_diag::suggest;
 pub use fil_diag::{Code, CodeKind, Diag, Level, LevelProfile, Levels, Severity, TextSpan};
 pub use fil_machine::post_options::{OptionKind, OptionValue, PostOption};
 pub use fil_machine::{
-    Commons, FunctionCode, Kind, Letter, Unit, address, chain_drawing, chains, commons,
+    Commons, FunctionCode, Kind, Letter, Unit, address, chain_drawing, chains, commons, effects,
     files as settings, functions, locations, stored, tape_style, user_blocks,
 };
 pub use fil_nc as nc;

@@ -26,6 +26,8 @@ const MAY_SHARE: &[(&str, &str)] = &[
     // M5 of a SINUMERIK makes the axis C the spindle again.
     ("the spindle's stop", "the switch to turning"),
     ("the spindle", "the switch to turning"),
+    // M30 ends the program of a mill and rewinds it.
+    ("the end of the program", "the end with rewind"),
     // M99 ends a program as well.
     ("a call of a program", "the end of the program"),
     ("a call of a program", "the end with rewind"),

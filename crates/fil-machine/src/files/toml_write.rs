@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use fil_diag::Levels;
 
 use crate::commons::{Commons, EMPTY, Kind};
+use crate::effects::Effects;
 use crate::locations::{self as loc, Location, default_commons};
 use crate::stored;
 use crate::stored::BLANKS;
@@ -32,6 +33,7 @@ pub fn write_toml(commons: &Commons) -> String {
     }
     unnamed(commons, &defaults, &mut out);
     levels(commons.levels(), &mut out);
+    effects(commons.effects(), &mut out);
     out
 }
 
@@ -49,6 +51,17 @@ fn levels(levels: &Levels, out: &mut String) {
     }
     for (number, level) in levels.of_codes() {
         let _ = writeln!(out, "E{number:04} = \"{level}\"");
+    }
+}
+
+/// What blocks of the shop do. A table too.
+fn effects(effects: &Effects, out: &mut String) {
+    if effects.is_empty() {
+        return;
+    }
+    out.push_str("[effects]\n");
+    for rule in effects.rules() {
+        let _ = writeln!(out, "{:?} = \"{}\"", rule.said, rule.effect.name());
     }
 }
 
@@ -138,6 +151,17 @@ fn is_text(kind: Kind, number: u16) -> bool {
 mod tests {
     use super::*;
     use crate::files::read_toml;
+
+    #[test]
+    fn effects_read_back() {
+        let text = "[effects]\n\"M98 P9001\" = \"tool change\"\n\"G65.1 P98*\" = \"returns clear\"\n";
+        let (commons, _) = read_toml("m", text).unwrap();
+        let written = write_toml(&commons);
+        assert!(written.ends_with(text), "{written}");
+        let wrong = read_toml("m", "[effects]\nM66 = \"tool chnage\"\n").unwrap_err();
+        assert_eq!(wrong[0].hint.as_deref(), Some("did you mean tool change?"));
+        assert!(read_toml("m", "[effects]\n\"*\" = \"nothing\"\n").is_err());
+    }
 
     #[test]
     fn what_is_written_reads_back() {

@@ -164,7 +164,7 @@ impl Control {
             Maker::Text => self.learn(&left),
         }
         if maker != Maker::Post || brings {
-            self.refuse_changes(known)?;
+            self.doubt_changes(known)?;
         }
         Ok(true)
     }

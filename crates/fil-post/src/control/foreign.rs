@@ -1,11 +1,14 @@
 //! What authors write: each block is read once, by the reader of the control's family, and the
 //! control learns from what was read.
 
+use fil_machine::effects::Effect as Rule;
 use fil_machine::locations::{self as loc};
+use fil_machine::{FunctionCode, Letter, letters};
 
 use super::texts::without_blanks;
 use super::{Control, klartext, sinumerik, speed_of_others};
 use crate::control_state::{Effect, ForeignBlock, Know, Source};
+use crate::errors::PostCode;
 
 impl Control {
     /// The blocks of an INSERT, as they go to the tape. The machine's end-of-block character
@@ -27,11 +30,60 @@ impl Control {
     pub fn read(&self, text: String) -> ForeignBlock {
         let mut block = self.family().read(self, &text);
         block.text = text;
+        self.take_rule(&mut block);
         block
+    }
+
+    /// Puts what `[effects]` says of a block in the place of what was read.
+    fn take_rule(&self, block: &mut ForeignBlock) {
+        // What block delete may skip is no certain change.
+        if block.skipped {
+            return;
+        }
+        let Some(found) = self.commons.effects().of(&block.text) else { return };
+        let named = block.words.iter().rev().find(|(letter, _)| *letter == letters::T);
+        let effect = match found.rule.effect {
+            Rule::ToolChange => Some(Effect::ChangesTool(named.map(|(_, tool)| *tool))),
+            Rule::ReturnsClear => Some(Effect::ReturnsClear),
+            Rule::KeepsPosition => Some(Effect::KeepsPosition),
+            Rule::Coolant | Rule::Nothing => None,
+        };
+        if found.is_function {
+            let is_it = |(letter, value): &(Letter, f64)| {
+                *letter == letters::M && FunctionCode::of_value(*value) == found.rule.function()
+            };
+            block.words.retain(|word| !is_it(word));
+        } else {
+            let text = std::mem::take(&mut block.text);
+            *block = ForeignBlock { text, skipped: block.skipped, ..ForeignBlock::default() };
+        }
+        block.effects.extend(effect);
+        block.is_said = true;
+        block.pattern = found.rule.is_pattern().then(|| found.rule.said.clone());
+    }
+
+    /// Learns from words of an author (POSTN) whose line on the tape begins at `start`, where
+    /// `[effects]` says what they do; false where it says nothing.
+    pub(super) fn learn_by_rule(&mut self, start: usize) -> bool {
+        if self.commons.effects().is_empty() {
+            return false;
+        }
+        let block = self.read(self.tape.last_line(start, &self.tables));
+        if block.is_said {
+            self.learn(&block);
+        }
+        block.is_said
     }
 
     /// Learns from a text that has gone to the tape.
     pub(super) fn learn(&mut self, block: &ForeignBlock) {
+        if let Some(pattern) = &block.pattern {
+            let message = format!("`{}` matches `{pattern}` of [effects]", block.text);
+            self.warnings.add_once(PostCode::EffectPattern, pattern, message);
+        }
+        if self.is_unread(block) {
+            self.warnings.unread_block = Some(block.text.clone());
+        }
         if block.skipped && self.can().skipped_is_unknown {
             // What a block does that may be skipped is known in no case that matters.
             self.state.doubt_all(Source::Author);
@@ -46,6 +98,12 @@ impl Control {
         speed_of_others::learn(self, block.certain_words(), is_certain);
     }
 
+    /// A block that can't be read whole, or calls a program.
+    fn is_unread(&self, block: &ForeignBlock) -> bool {
+        let calls = |letter, code| letter == letters::M && self.codes.calls_program(code);
+        block.unread.is_some() || block.calls_subprogram() || block.has_function(calls)
+    }
+
     fn take_effect(&mut self, effect: Effect) {
         let state = &mut self.state;
         match effect {
@@ -54,16 +112,33 @@ impl Control {
             Effect::Doubt(letter) => state.doubt(letter),
             Effect::DoubtAxes => state.doubt_axes(),
             Effect::LoseAxes => state.lose_axes(),
-            Effect::ShiftAxes => state.shift_axes(),
+            Effect::ShiftAxes => state.shift_axes(Source::Author),
             Effect::Clears(letter) => state.clears(letter),
             Effect::Stands(letter, value) => state.stand(letter, value),
             Effect::ToolChangeMoves => klartext::reader::tool_change_moves(self),
             Effect::Auxiliary(number) => klartext::reader::learn_function(self, number),
             Effect::EndsProgramText => klartext::reader::ends_program_text(self),
             Effect::Edge(value) => sinumerik::reader::edge(self, value),
+            Effect::ChangesTool(tool) => {
+                state.learn_said_change(tool.filter(|tool| tool.fract() == 0.0), &self.codes);
+                klartext::reader::tool_change_moves(self);
+            }
+            Effect::ReturnsClear => self.returns_clear(),
+            Effect::KeepsPosition => state.keeps_position(),
             Effect::OtherCall => sinumerik::reader::other_call(self),
             Effect::Unread => self.family().forget(self),
         }
+    }
+}
+
+impl Control {
+    /// A call of the shop has brought all axes clear of the part.
+    fn returns_clear(&mut self) {
+        let present = self.tables.present();
+        let letters = present.numbers().map(|number| self.tables.axis(number).letter);
+        letters.for_each(|letter| self.state.clears(letter));
+        self.state.length_ends_at_machine(&self.codes, |_| true);
+        self.state.forget(modal::MOTION, Source::Author);
     }
 }
 

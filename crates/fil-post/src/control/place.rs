@@ -92,8 +92,8 @@ impl Control {
             Length::Unsaid | Length::Called => return Ok(()),
             Length::Taken => "a text has taken the length of the tool off",
             Length::Ended => {
-                "a position of the machine has ended the length of the tool, and which offset it \
-                 had is not known"
+                "a position of the machine or a tool change has ended the length of the tool, and \
+                 its offset is not known"
             }
         };
         let Some(offset) = self.offset_to_restate(length) else {
@@ -178,6 +178,11 @@ impl Control {
         self.warnings.add(PostCode::ShiftedLevel, message);
     }
 
+    /// Who has given an axis another zero.
+    fn shifted_by(&self, number: usize) -> Source {
+        self.state.shifted_by(self.tables.axis(number).letter)
+    }
+
     /// Warns of a rapid motion across at a height that counts from another zero than before.
     ///
     /// # Errors
@@ -186,7 +191,7 @@ impl Control {
         if rises && self.was_at_feed() {
             return match self.commons.read(loc::RAPID_SPLIT) {
                 RapidSplit::OneBlock => refuse_shifted_way(self, number),
-                _ => unknown_height(self, number, Source::Post),
+                _ => unknown_height(self, number, self.shifted_by(number)),
             };
         }
         let letter = self.tables.axis(number).letter;
@@ -235,7 +240,7 @@ fn refuse_shifted_way(control: &mut Control, number: usize) -> Result<()> {
         "Go away from the part with RAPID before the change of the work offset, or put GOHOME or \
          LOADTL behind it.",
     ));
-    control.doubt(Source::Post, diag, "taken to be clear of it")
+    control.doubt(control.shifted_by(number), diag, "taken to be clear of it")
 }
 
 /// Doubts a rapid motion of several axes in one block from a position that an author's block left

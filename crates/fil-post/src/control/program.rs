@@ -21,7 +21,7 @@ use crate::errors::PostCode;
 const LONGEST_LEADER: usize = 10_000;
 
 /// Program numbers have at most four digits.
-const NUMBERS: i64 = 10_000;
+const NUMBERS: i64 = 100_000_000;
 
 /// Modes that the program says at its start, and those the control has anyway.
 const START_MODES: [(CodeAt, CodeAt); 3] = [
@@ -295,7 +295,7 @@ fn program_number(control: &mut Control) -> Result<()> {
     let number = fixed.or(control.head.number).unwrap_or(1);
     if !(0..NUMBERS).contains(&number) {
         return PostCode::ProgramNumber
-            .err(format!("program number {number} has more than four digits"));
+            .err(format!("program number {number} has more than eight digits"));
     }
     let width = if fixed.is_some() { 1 } else { 4 };
     let mut line = format!("{letter}{number:0width$}");

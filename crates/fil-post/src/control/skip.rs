@@ -4,6 +4,8 @@ use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 
 use super::Control;
+use super::needs::Act;
+use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
 
 impl Control {
@@ -55,6 +57,35 @@ impl Control {
             "a tool change: behind OPSKIP tool-tip control would take the length of this tool, \
              whichever one the skip switch has left in the spindle",
         )
+    }
+}
+
+impl Control {
+    /// What any motion needs. A tool change that an author wrote within OPSKIP is a doubt.
+    ///
+    /// # Errors
+    /// As the row of a motion; the doubt, by its level.
+    #[inline]
+    pub fn require_motion(&mut self) -> Result<()> {
+        if self.state.groups().depends_on_block_delete(modal::TOOL) {
+            self.doubt_skipped_tool()?;
+        }
+        self.require(Act::Motion)
+    }
+
+    #[cold]
+    fn doubt_skipped_tool(&mut self) -> Result<()> {
+        // The post knows each tool that it changes.
+        if !matches!(self.state.tools_by_block_delete(), Some([None, _])) {
+            return Ok(());
+        }
+        let diag = PostCode::AuthorChange.diag(
+            "a block within OPSKIP changes the tool: block delete decides which one makes this \
+             motion",
+        );
+        self.doubt(Source::Author, diag, "taken to be the tool of the blocks that are run")?;
+        self.state.has_tool(None);
+        Ok(())
     }
 }
 

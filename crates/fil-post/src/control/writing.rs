@@ -117,6 +117,7 @@ impl Control {
         let plain = plain(words);
         match edit {
             Some(edit) => self.learn_left(edit),
+            None if self.learn_by_rule(start) => {}
             None => self.state.learn_words(&plain, &self.codes),
         }
         self.family().learn_words(self, &plain);
@@ -128,7 +129,7 @@ impl Control {
         match edit {
             // The post has done what it wanted.
             Some(edit) if !self.brings_functions(edit) => Ok(()),
-            _ => self.refuse_changes(before),
+            _ => self.doubt_changes(before),
         }
     }
 
@@ -188,7 +189,7 @@ impl Control {
         self.learn(block);
         self.follow_feed_mode();
         self.take_plane_back(&before);
-        self.refuse_changes(before)
+        self.doubt_changes(before)
     }
 
     /// Takes the format of F in the mode that words or texts of others have left in force.
@@ -244,61 +245,64 @@ impl Control {
         }
     }
 
-    /// Refuses what words or texts of others have changed in the frame of tool-tip control,
-    /// which goes on: controls differ in what that does.
-    fn refuse_under_tip_control(&self, before: &BeforeOthers) -> Result<()> {
+    /// What an author's block has changed that tool center point control counts on, which goes
+    /// on: controls differ in what that does.
+    fn changed_under_tip_control(&self, before: &BeforeOthers) -> Option<&'static str> {
+        let frame = before.frame?;
         let changed = self.state.groups().changed_since_foreign(modal::TOOL_CHANGED);
-        if before.frame.is_some() && (changed || self.length_was_named(before)) {
-            return PostCode::TipControl.err_with(
-                "a text changes the tool, names a length or takes it off, and tool-tip control \
-                 goes on with that of the tool before",
-                "Put LOADTL there, or the text before tool-tip control begins or behind its end.",
+        if changed || self.length_was_named(before) {
+            return Some(
+                "under tool center point control the block changes the tool, or names or cancels a \
+                 tool length offset",
             );
         }
-        match (before.frame, self.frame_of_tip()) {
-            (Some(before), Some(now)) if before != now => PostCode::TipControl.err_with(
-                "a text changes the plane, the unit, the zero or the frame, goes to a position of \
-                 the machine or begins a cycle: controls differ in what that does under it",
-                "Put the text before tool-tip control begins or behind its end, or write positions \
-                 of the axes with rotary.tip_output = 0.",
-            ),
-            _ => Ok(()),
-        }
+        let is_other = self.frame_of_tip().is_some_and(|now| now != frame);
+        is_other.then_some(
+            "under tool center point control the block changes the plane, the unit, the origin or \
+             the frame, goes to a machine position or begins a cycle",
+        )
     }
 
-    /// Refuses a tool change, another plane or a turn of the machine that they brought within
-    /// cutter compensation, compensation that they switched while CUTCOM waits for its motion,
-    /// and another frame under tool-tip control.
-    ///
-    /// # Errors
-    /// They did.
-    pub fn refuse_changes(&self, before: BeforeOthers) -> Result<()> {
+    /// What an author's block has changed that cutter compensation counts on.
+    fn changed_in_compensation(&self, before: &BeforeOthers) -> Option<&'static str> {
+        let groups = self.state.groups();
         if self.waiting.has(Function::Compensation)
-            && self.state.groups().changed_since_foreign(modal::CUTTER_COMP)
+            && groups.changed_since_foreign(modal::CUTTER_COMP)
         {
-            return PostCode::CompensationOn.err(
-                "a text switches it while CUTCOM waits for its motion, which would switch it again",
+            return Some(
+                "the block switches cutter compensation while CUTCOM waits for its motion, which \
+                 switches it again",
             );
         }
-        self.refuse_under_tip_control(&before)?;
         if !before.compensated {
-            return Ok(());
+            return None;
         }
-        let groups = self.state.groups();
         if groups.changed_since_foreign(modal::TOOL_CHANGED)
             || groups.changed_since_foreign(modal::TOOL_WORD)
         {
-            return PostCode::CompensationOn
-                .err("at a tool change; CUTCOM/OFF must come before it");
+            return Some("the block changes the tool while cutter compensation is on");
         }
         if [3, 4].map(|number| self.stands(number)) != before.rotary {
-            return PostCode::CompensationOn.err("where a text turns the machine");
+            return Some("the block turns the machine while cutter compensation is on");
         }
-        match (before.plane, self.state.get(modal::PLANE)) {
-            (Some(one), Some(other)) if one != other => {
-                PostCode::CompensationOn.err("at a change of the plane")
+        let plane = self.state.get(modal::PLANE);
+        let is_other = before.plane.zip(plane).is_some_and(|(one, other)| one != other);
+        is_other.then_some("the block changes the plane while cutter compensation is on")
+    }
+
+    /// Doubts what an author's block has changed within cutter compensation or tool center point
+    /// control, which go on behind it.
+    ///
+    /// # Errors
+    /// The doubt, by its level.
+    pub fn doubt_changes(&mut self, before: BeforeOthers) -> Result<()> {
+        let changed = self.changed_in_compensation(&before);
+        match changed.or_else(|| self.changed_under_tip_control(&before)) {
+            Some(what) => {
+                let diag = PostCode::AuthorChange.diag(what);
+                self.doubt(Source::Author, diag, "the mode is taken to go on as it was")
             }
-            _ => Ok(()),
+            None => Ok(()),
         }
     }
 

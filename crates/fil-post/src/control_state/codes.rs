@@ -1,6 +1,7 @@
 //! What the G and M codes of a machine mean: those its settings name, and in foreign blocks the
 //! standard ones (ISO 6983, RS-274), as `fil_machine::functions` has them.
 
+use fil_machine::effects::Effect;
 use fil_machine::functions::{
     self, AxisClamp, Call, Dialect, FUNCTIONS, Function, Group, LengthOffset, Meaning, Origin,
     Space, Spindle,
@@ -29,6 +30,8 @@ pub struct Codes {
     preparatory: Vec<Named>,
     /// The M codes that they name.
     auxiliary: Vec<Named>,
+    /// The M codes whose effect the machine says (`[effects]`), which have no standard meaning.
+    said: Vec<FunctionCode>,
     /// Whose standard codes it has.
     dialect: Dialect,
     /// The lowest and the highest code of the work offsets.
@@ -56,8 +59,17 @@ impl Codes {
         let by_word = commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode;
         let mut preparatory = functions::named(commons, dialect);
         let of_g = preparatory.partition_point(|(_, row)| row.space != Space::M);
+        let mut auxiliary = preparatory.split_off(of_g);
+        let rules = commons.effects().rules().iter();
+        let said: Vec<(FunctionCode, Effect)> =
+            rules.filter_map(|rule| Some((rule.function()?, rule.effect))).collect();
+        auxiliary.retain(|(code, _)| said.iter().all(|(said, _)| said != code));
+        let change = FUNCTIONS.iter().find(|row| row.meaning == Meaning::ToolChange);
+        let changes = said.iter().filter(|(_, effect)| *effect == Effect::ToolChange);
+        auxiliary.extend(changes.zip(change.into_iter().cycle()).map(|((code, _), row)| (*code, row)));
         Codes {
-            auxiliary: preparatory.split_off(of_g),
+            auxiliary,
+            said: said.into_iter().map(|(code, _)| code).collect(),
             preparatory,
             dialect,
             offsets: code(loc::FIXTURE_MIN_CODE).zip(code(loc::FIXTURE_MAX_CODE)),
@@ -103,6 +115,7 @@ impl Codes {
             |row: &Function| self.auxiliary.iter().any(|(_, own)| own.meaning == row.meaning);
         let standard = functions::standard(self.dialect, Space::M, code);
         let standard = standard.filter(|row| row.settings.is_empty() || !is_named(row));
+        let standard = standard.filter(|_| !self.said.contains(&code));
         let named = self.auxiliary.iter().filter(move |(named, _)| *named == code);
         named.map(|(_, row)| *row).chain(standard)
     }

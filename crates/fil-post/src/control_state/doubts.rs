@@ -4,6 +4,7 @@
 use fil_machine::Letter;
 use fil_machine::commons::EMPTY;
 
+use super::Source;
 use super::levels::Levels;
 
 /// A set of letters.
@@ -68,6 +69,8 @@ pub(super) struct Doubts {
     lost_by_post: LetterSet,
     /// Their axes stand where they stood, and count from another zero.
     shifted: LetterSet,
+    /// Of them, those whose zero an author's block has changed.
+    shifted_by_author: LetterSet,
     /// A position of the machine has brought their axes clear of the part.
     clear: LetterSet,
     /// A tool change has: it may leave them where they are, too.
@@ -140,10 +143,20 @@ impl Doubts {
     }
 
     /// The axis has not moved, and counts from another zero.
-    pub(super) fn shift(&mut self, letter: Letter) {
+    pub(super) fn shift(&mut self, letter: Letter, by: Source) {
         self.add(letter);
+        match by {
+            Source::Author if !self.shifted.has(letter) => self.shifted_by_author.add(letter),
+            Source::Author => {}
+            _ => self.shifted_by_author.remove(letter),
+        }
         let is_exact = self.levels_of(letter).is_none_or(|levels| levels.exact().is_some());
         if is_exact { self.shifted.add(letter) } else { self.lose(letter) }
+    }
+
+    /// True where an author's block alone has given the axis another zero.
+    pub(super) fn is_shifted_by_author(&self, letter: Letter) -> bool {
+        self.shifted_by_author.has(letter)
     }
 
     /// The tool has another length. Behind a tool change the values are those of its tip
@@ -152,7 +165,7 @@ impl Doubts {
         if self.is_clear(letter) {
             self.add(letter);
         } else {
-            self.shift(letter);
+            self.shift(letter, Source::Author);
         }
     }
 
@@ -286,6 +299,7 @@ impl Doubts {
         self.doubtful.0 |= other.doubtful.0;
         self.lost.0 |= other.lost.0;
         self.lost_by_post.0 |= other.lost_by_post.0;
+        self.shifted_by_author.0 &= other.shifted_by_author.0;
         self.shifted.0 |= other.shifted.0;
         self.clear.0 &= other.clear.0;
         self.changed.0 &= other.changed.0;

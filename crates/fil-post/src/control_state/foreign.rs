@@ -53,6 +53,13 @@ pub enum Effect {
     EndsProgramText,
     /// What can't be read may have changed all.
     Unread,
+    /// The tool was changed to the one of this number, or to the last one that was named
+    /// (`[effects]`).
+    ChangesTool(Option<f64>),
+    /// The axes stand at positions of the machine that are clear of the part (`[effects]`).
+    ReturnsClear,
+    /// Modes may be others, and the axes stand where they stood (`[effects]`).
+    KeepsPosition,
 }
 
 impl Effect {
@@ -80,6 +87,10 @@ pub struct ForeignBlock {
     pub effects: Vec<Effect>,
     /// The first part that can't be read.
     pub unread: Option<String>,
+    /// `[effects]` says what it does.
+    pub is_said: bool,
+    /// The pattern of `[effects]` that says what it does.
+    pub pattern: Option<String>,
 }
 
 impl ForeignBlock {

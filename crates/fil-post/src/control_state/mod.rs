@@ -239,19 +239,24 @@ impl ControlState {
         if self.doubts.is_lost_by_post(letter) { Source::Post } else { Source::Author }
     }
 
+    /// Who has given the axis of a letter another zero.
+    pub fn shifted_by(&self, letter: Letter) -> Source {
+        if self.doubts.is_shifted_by_author(letter) { Source::Author } else { Source::Post }
+    }
+
     /// The last output value of a letter is about to be made EMPTY: its axis has moved.
     pub fn remember(&mut self, letter: Letter, last: f64) {
         self.doubts.remember(letter, last);
     }
 
     /// An axis has not moved, and counts from another zero.
-    pub fn shifts(&mut self, letter: Letter) {
-        self.doubts.shift(letter);
+    pub fn shifts(&mut self, letter: Letter, by: Source) {
+        self.doubts.shift(letter, by);
     }
 
     /// The axes have not moved, and count from another zero.
-    pub fn shift_axes(&mut self) {
-        AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.shift(letter));
+    pub fn shift_axes(&mut self, by: Source) {
+        AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.shift(letter, by));
     }
 
     /// The tool has another length: Z counts from elsewhere, but for the values behind a tool

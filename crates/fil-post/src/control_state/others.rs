@@ -7,9 +7,10 @@ use fil_machine::{FunctionCode, Letter, letters};
 
 use super::foreign::{ForeignBlock, TextFrame};
 use super::modal::{
-    CYCLE, DISTANCE, MOTION, NAMED_TOOL, TOOL, TOOL_WORD, UNITS, WORK_OFFSET, WORK_PLANE,
+    CYCLE, DISTANCE, LENGTH, LENGTH_OFFSET, MOTION, NAMED_TOOL, SPINDLE, TOOL, TOOL_CHANGED,
+    TOOL_WORD, UNITS, WORK_OFFSET, WORK_PLANE,
 };
-use super::{AXIS_LETTERS, Codes, ControlState, Distance, Meaning, Source};
+use super::{AXIS_LETTERS, Codes, ControlState, Distance, Length, Meaning, Rotation, Source};
 
 /// What preparatory functions of others do to where the axes stand.
 #[derive(Clone, Copy, Debug, Default)]
@@ -189,6 +190,29 @@ impl ControlState {
         }
     }
 
+    /// A block has changed the tool, as `[effects]` says: to the one of a number, or to the last
+    /// one that was named. Its length is called with the next motion.
+    pub fn learn_said_change(&mut self, tool: Option<f64>, codes: &Codes) {
+        if let Some(tool) = tool {
+            self.names_tool(tool, codes);
+        }
+        let named = self.get(NAMED_TOOL);
+        self.has_tool(None);
+        self.set(SPINDLE, Rotation::Standing);
+        self.set(TOOL_CHANGED, true);
+        self.forget(MOTION, Source::Author);
+        if codes.calls_lengths {
+            self.set(LENGTH, Length::Ended);
+            self.groups.set_if_known(LENGTH_OFFSET, named, Source::Author);
+        }
+    }
+
+    /// A block may have changed modes, and moved no axis.
+    pub fn keeps_position(&mut self) {
+        self.groups.doubt_all(Source::Author);
+        self.doubts.add_all();
+    }
+
     /// A word names a tool.
     fn names_tool(&mut self, value: f64, codes: &Codes) {
         self.groups.doubt(TOOL);
@@ -231,7 +255,7 @@ impl ControlState {
             self.turn_axes();
             self.forget(WORK_PLANE, Source::Author);
         } else if ways.shifts {
-            self.shift_axes();
+            self.shift_axes(Source::Author);
         } else if ways.length {
             self.tool_length_changes();
         }

@@ -38,7 +38,12 @@ impl BeforeSection {
 pub fn is_taken(post: &mut Post, before: BeforeSection, tool: i64, offset: i64) -> Result<()> {
     let now = BeforeSection::new(post);
     let control = &mut post.control;
-    let is_known = now.changes != before.changes || now.written[0] != before.written[0];
+    let has_changed = now.written[0] != before.written[0];
+    // What `[effects]` names a tool change is one to this tool, where its block names none.
+    let is_said = has_changed
+        && control.state.length() == Length::Ended
+        && control.state.get(modal::LENGTH_OFFSET).is_none();
+    let is_known = now.changes != before.changes || has_changed && !is_said;
     let is_same = control.state.get(modal::TOOL) == Some(tool);
     if now.blocks == before.blocks || is_known || is_same || !control.calls_lengths() {
         return Ok(());
@@ -60,7 +65,9 @@ pub fn is_taken(post: &mut Post, before: BeforeSection, tool: i64, offset: i64) 
     }
     control.state.forget(modal::MOTION, Source::Author);
     control.state.has_tool(Some(tool));
-    if now.written[1] == before.written[1] {
+    if is_said {
+        control.state.set(modal::LENGTH_OFFSET, offset);
+    } else if now.written[1] == before.written[1] {
         control.state.set(modal::NAMED_TOOL, offset);
         control.state.set(modal::LENGTH, Length::OfAnotherTool);
         control.state.doubt(control.tables.axis(2).letter);

@@ -22,7 +22,7 @@ use crate::control::needs::Act;
 use crate::control::word_address::cycle;
 use crate::control::{Control, Function};
 use crate::control::{family, machine_frame, vectors};
-use crate::control_state::{Compensation, Meaning, modal};
+use crate::control_state::{Compensation, Meaning, Source, modal};
 use crate::errors::PostCode;
 use crate::operation::motion::{Motion, RapidCode};
 use crate::operation::{Operation, Target};
@@ -168,7 +168,7 @@ fn names_tip(control: &mut Control, rotary: Option<[f64; 2]>) -> Result<()> {
         let axis = *control.tables.axis(number);
         match tip {
             Some(tip) => control.state.stand(axis.letter, axis.value(tip[number])?),
-            None if control.stands(number).is_some() => control.state.shifts(axis.letter),
+            None if control.stands(number).is_some() => control.state.shifts(axis.letter, Source::Post),
             None => {}
         }
     }

@@ -7,13 +7,16 @@ use crate::errors::PostCode;
 use crate::items::Items;
 use crate::post::Post;
 
-/// Program numbers are below this.
-const NUMBERS: i64 = 10_000;
+/// Digits of a program number; a longer number of the text is a name.
+const DIGITS: usize = 4;
+
+/// Program numbers from here on are those of the machine builder's own macros.
+const RESERVED: i64 = 8000;
 
 /// Remembers name and number for the start of the program.
 ///
 /// # Errors
-/// A number of more than four digits, where it would be the program's.
+/// Items behind the text.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let name = items.text().to_string();
     items.deny_rest()?;
@@ -23,28 +26,33 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         return Ok(());
     }
     let number = whole_number(&name);
-    let head = &mut post.control.head;
     let taken = post.control.commons.read(fil_machine::locations::PROGRAM_NUMBER).is_some()
         || post.control.commons.read(fil_machine::locations::PROGRAM_NUMBER_ADDRESS).is_none();
-    if !taken && number.is_some_and(|number| number >= NUMBERS) {
-        return PostCode::ProgramNumber
-            .err(format!("PARTNO `{name}` gives a program number of more than four digits"));
+    if let Some(number) = number.filter(|number| !taken && is_reserved(*number)) {
+        let message = format!("PARTNO `{name}` gives O{number:04}");
+        post.warn(PostCode::ReservedNumber, message);
     }
+    let head = &mut post.control.head;
     head.number = number;
     head.name = name;
     head.cause = post.control.block.cause;
     Ok(())
 }
 
-/// The first whole number of a text: digits that no point and no comma joins to
-/// others.
+/// O0000 is no number of a program, and the macros of machines have those from O8000 on.
+fn is_reserved(number: i64) -> bool {
+    number == 0 || number >= RESERVED
+}
+
+/// The first whole number of a text that a program can have: digits that no point and no comma
+/// joins to others, not more than a program number has.
 fn whole_number(text: &str) -> Option<i64> {
     let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.' && c != ',');
     let digits = numbers.map(|part| part.trim_end_matches(['.', ',']));
     digits
         .filter(|part| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit()))
-        .map(|part| part.parse().unwrap_or(i64::MAX))
-        .next()
+        .filter(|part| part.len() <= DIGITS)
+        .find_map(|part| part.parse().ok())
 }
 
 #[cfg(test)]
@@ -60,7 +68,9 @@ mod tests {
             ("REV 1.5 NO 8", Some(8)),
             ("PLATE", None),
             ("", None),
-            ("99999999999999999999", Some(i64::MAX)),
+            ("99999999999999999999", None),
+            ("BRACKET-100200 REV 7", Some(7)),
+            ("123456789", None),
         ] {
             assert_eq!(whole_number(text), number, "{text}");
         }

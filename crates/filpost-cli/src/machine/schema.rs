@@ -1,5 +1,6 @@
 //! The JSON schema of `machine.toml`.
 
+use filpost::effects::Effect;
 use filpost::locations::{Location, TABLE, ValueUnit};
 use filpost::{Level, LevelProfile, user_blocks};
 use serde_json::{Map, Value, json};
@@ -35,6 +36,7 @@ pub fn schema() -> Value {
         }),
     );
     properties.insert("option".into(), declarations());
+    properties.insert("effects".into(), effects());
     for kind in ["int", "rel", "dbl"] {
         let numbers = json!({"type": "object", "patternProperties": {"^[0-9]+$": number()}});
         inner(&mut properties, "imported").insert(kind.into(), numbers.clone());
@@ -131,6 +133,15 @@ fn declarations() -> Value {
             "additionalProperties": false,
         }},
         "additionalProperties": false,
+    })
+}
+
+/// `[effects]`: a block, a word or a pattern, and what it does.
+fn effects() -> Value {
+    json!({
+        "type": "object",
+        "description": "What calls and codes of the shop do.",
+        "additionalProperties": {"enum": Effect::ALL.map(Effect::name)},
     })
 }
 

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use filpost::effects::Rule;
 use filpost::locations::{LIMITS_CHECK, Location, TABLE, default_commons};
 use filpost::{Commons, Diag, Error, Kind, Levels, Program, ready, stored, user_blocks};
 
@@ -127,6 +128,7 @@ fn differences(out: &mut dyn Write, commons: &Commons) -> io::Result<()> {
     lines.extend(texts(commons));
     lines.extend(levels(commons.levels()));
     lines.extend(options(commons));
+    lines.extend(commons.effects().rules().iter().map(effect));
     if lines.is_empty() {
         lines.push("every setting that has an effect is that of the default machine".into());
     }
@@ -162,6 +164,11 @@ fn levels(levels: &Levels) -> Vec<String> {
         Some(line(&code.name(), level.name()))
     });
     profile.into_iter().chain(all).chain(of_codes).collect()
+}
+
+/// What a block of the shop does.
+fn effect(rule: &Rule) -> String {
+    format!("{:<28} {}", format!("effects.{:?}", rule.said), rule.effect.name())
 }
 
 /// The user's blocks.

@@ -4,11 +4,13 @@
 //! `int.1870 = 1`, `rel.11 = 1.0`, `dbl.486 = 2.0`; `[address.X]` holds `slot`,
 //! `format`, `spec` and `char` of a letter; `blocks.start` and `blocks.end` are
 //! lists of texts, and so are `words.without_effect`, the major words that pass, and
-//! `verify.allowed_offsets`, what a program may choose unasked; `[levels]` sets levels of codes;
-//! `[option.NAME]` declares an option of the post and `[options]` gives values. A flag takes true or false, a letter or character a text of
+//! `verify.allowed_offsets`, what a program may choose unasked; `[levels]` sets levels of codes,
+//! `[effects]` says what blocks of the shop do, `[option.NAME]` declares an option of the post and
+//! `[options]` gives values. A flag takes true or false, a letter or character a text of
 //! one character, and every setting takes `"none"` for absent.
 
 mod address;
+mod effects;
 mod levels;
 mod options;
 mod values;
@@ -50,6 +52,9 @@ const CHAIN: &str = "chain";
 
 /// What stands before the codes of levels.
 const LEVELS: &str = "levels.";
+
+/// What stands before the blocks of effects.
+const EFFECTS: &str = "effects.";
 
 /// What messages call the text of a single setting.
 const OPTION: &str = "--set";
@@ -315,6 +320,9 @@ impl<'a> TomlReader<'a> {
         }
         if let Some(code) = name.strip_prefix(LEVELS) {
             return self.level(commons, code, key, value);
+        }
+        if let Some(block) = name.strip_prefix(EFFECTS) {
+            return self.effect(commons, block, key, value);
         }
         if name == "verify.allowed_offsets" {
             for offset in self.texts(value, MOST_OFFSETS)? {

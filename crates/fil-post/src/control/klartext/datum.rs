@@ -29,7 +29,7 @@ pub fn write(control: &mut Control, number: Option<i64>) -> Result<()> {
     let cause = control.block.cause;
     line::put(control, &Line::of_text("CYCL DEF 247 DATUM SETTING ~", cause))?;
     line::put_more(control, &format!("  Q339=+{row} ;DATUM NUMBER"), cause)?;
-    control.state.shift_axes();
+    control.state.shift_axes(Source::Post);
     // Which hole the next M99 would drill is not counted on.
     control.state.forget(modal::CYCLE_CODE, Source::Post);
     Ok(())

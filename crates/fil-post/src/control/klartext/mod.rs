@@ -139,7 +139,7 @@ fn function(control: &mut Control, letter: Letter, code: FunctionCode) -> Result
     let before = control.before_others()?;
     control.m(code);
     control.write_block()?;
-    control.refuse_changes(before)
+    control.doubt_changes(before)
 }
 
 /// Refuses an M function that changes what the post counts on.

@@ -179,7 +179,7 @@ fn turn(control: &mut Control, arc: &PlaneArc, helix: Helix, feed: Option<&Feed>
 /// No unit; cutter compensation that a text may have ended.
 pub fn ready(control: &mut Control) -> Result<()> {
     control.begin()?;
-    control.require(Act::Motion)?;
+    control.require_motion()?;
     if !control.repeat.ended.is_empty() {
         words_of_repeat::doubt_ended(control);
     }

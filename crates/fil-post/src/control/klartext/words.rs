@@ -52,7 +52,7 @@ pub fn write(control: &mut Control, words: &[(Letter, f64, Cause)]) -> Result<()
     if moved.contains(&true) && control.state.compensates() {
         control.state.moved_in_plane();
     }
-    control.refuse_changes(before)
+    control.doubt_changes(before)
 }
 
 fn auxiliary(value: f64) -> Result<FunctionCode> {

@@ -10,7 +10,7 @@ use fil_machine::setting::CodeAt;
 use super::cycle;
 use crate::control::needs::Act;
 use crate::control::{Control, Function};
-use crate::control_state::modal;
+use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
 
 /// Writes a work offset, in a block of its own or with the next motion. Where the axes
@@ -81,7 +81,7 @@ fn place(control: &mut Control) -> Result<()> {
 
 /// The axes count from the zero of the offset, which is the one before it if that stays.
 fn counts_anew(control: &mut Control, stays: bool) {
-    if stays { control.state.doubt_axes() } else { control.state.shift_axes() }
+    if stays { control.state.doubt_axes() } else { control.state.shift_axes(Source::Post) }
 }
 
 /// Adds the code of an offset: the n-th from the lowest one, a further one with its own

@@ -61,7 +61,7 @@ const OF_MOTIONS: GroupSet = GroupSet::of(&[
 ]);
 
 fn require_each(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
-    control.require(Act::Motion)?;
+    control.require_motion()?;
     let state = &control.state;
     let stands = state.is(modal::UNITS, unit)
         && state.is(modal::DISTANCE, Distance::Absolute)
