@@ -152,6 +152,14 @@ fil_diag::codes! {
         LengthTaken = 536, Doubt, "a motion without the length of the tool",
             "A text has taken the length of the tool off, or changed the tool without calling its length. Z of the CL file counts from the tip, and the control would bring the spindle nose there, or the tip by the length of another tool.",
             "Let the text, or another one behind it, call the length again (G43 H1, on a SINUMERIK D1), or put LOADTL before the motion.";
+        /// Another work offset than that of the CL file.
+        OtherOffset = 550, Warning, "a block of an author replaces the work offset of the CL file",
+            "SET/OFSETL has chosen a work offset, and a text, a POSTN or a machine block has another one: what follows is cut from another zero than the CL file asks for.",
+            "Leave the work offset out of the text, or put SET/OFSETL behind it.";
+        /// A program number within a program.
+        SecondProgram = 551, Warning, "a second program number",
+            "The post has written a program number, and a text begins another program before the end of this one. A control that reads the file stores two programs, the first one without an end.",
+            "Say the number by PARTNO or program.number and leave it out of the text, or set program.number_address = \"none\"; a subprogram belongs behind the end of the program.";
         /// A rotary axis that is clamped.
         TurnsClamped = 537, Error, "a clamped rotary axis would turn",
             "CLAMP/ON or a text has clamped the rotary axes, and nothing has released them since: the drive would turn against the brake, or the control would stop.",

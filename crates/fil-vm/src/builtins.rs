@@ -289,6 +289,13 @@ pub const BUILTINS: &[Builtin] = &[
         "a number as text; the same as TEXT/CONVF",
     ),
     function(
+        "CONVI",
+        "n[,width][,rules]",
+        Own,
+        FunctionKind::Library(Library::WholeToText, 1, 2),
+        "a whole number as text; the same as TEXT/CONVI",
+    ),
+    function(
         "TEXT/CLW",
         "",
         Own,

@@ -19,7 +19,7 @@ pub enum Library {
     CharacterCode,
     /// SCALF
     ToNumber,
-    /// TEXT/CONVI
+    /// TEXT/CONVI and CONVI
     WholeToText,
     /// TEXT/CONVF, CONVF and TEXTF
     ToText,

@@ -12,6 +12,7 @@ use fil_machine::setting::{CharacterAt, CodeAt};
 use fil_machine::{Commons, FunctionCode, user_blocks};
 
 use super::Control;
+use super::texts::MessageMarks;
 use crate::cause::Cause;
 use crate::control::needs::Act;
 use crate::control_state::{ControlState, Distance, Source, modal};
@@ -317,9 +318,8 @@ fn time_stamp(control: &mut Control) -> Result<()> {
     if !control.can().brackets_are_comments {
         return control.put_line(&format!(";{time}"), false).map(|_| ());
     }
-    let open = control.commons.read(loc::MESSAGE_OUT_CHAR).unwrap_or('(');
-    let close = control.commons.read(loc::MESSAGE_IN_CHAR).unwrap_or(')');
-    control.put_line(&format!("{open}{time}{close}"), false).map(|_| ())
+    let marks = MessageMarks::of(control);
+    control.put_line(&marks.enclose(&time), false).map(|_| ())
 }
 
 /// Writes PARTNO as a comment before the program, where the machine wants it.
@@ -328,15 +328,12 @@ fn part_name(control: &mut Control) -> Result<()> {
     if !wanted || control.head.name.is_empty() {
         return Ok(());
     }
-    let open = control.commons.read(loc::MESSAGE_OUT_CHAR).unwrap_or('(');
-    let close = control.commons.read(loc::MESSAGE_IN_CHAR).unwrap_or(')');
+    let marks = MessageMarks::of(control);
     let name = control.in_tape_characters(&control.head.name.clone());
     let end = control.tables.style.end_of_block;
-    let (name, _) = super::texts::clean_message(&name, [open, close], end);
+    let (name, _) = super::texts::clean_message(&name, marks.both(), end);
     let cause = control.head.cause;
-    control
-        .because(cause, |control| control.put_line(&format!("{open}{name}{close}"), false))
-        .map(|_| ())
+    control.because(cause, |control| control.put_line(&marks.enclose(&name), false)).map(|_| ())
 }
 
 /// Writes the leader or the trailer of a tape that is no direct transfer.

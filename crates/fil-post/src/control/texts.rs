@@ -1,8 +1,39 @@
 //! Texts that others put on the tape: what must never get there.
 
 use fil_diag::Result;
+use fil_machine::locations as loc;
 
+use super::Control;
 use crate::errors::PostCode;
+
+/// The characters that enclose a message.
+#[derive(Clone, Copy)]
+pub struct MessageMarks {
+    open: char,
+    /// `None` where the message ends with its line.
+    close: Option<char>,
+}
+
+impl MessageMarks {
+    /// Those of the machine. What `(` begins, `)` ends.
+    pub fn of(control: &Control) -> Self {
+        let open = control.commons.read(loc::MESSAGE_OUT_CHAR).unwrap_or('(');
+        let close = control.commons.read(loc::MESSAGE_IN_CHAR);
+        MessageMarks { open, close: close.or((open == '(').then_some(')')) }
+    }
+
+    /// Both, for a message that must have neither; without a second one the first alone.
+    pub fn both(self) -> [char; 2] {
+        [self.open, self.close.unwrap_or(self.open)]
+    }
+
+    /// A message between them.
+    pub fn enclose(self, text: &str) -> String {
+        let mut message = format!("{}{text}", self.open);
+        message.extend(self.close);
+        message
+    }
+}
 
 /// True for a text that begins a program or subprogram of its own: `O100`, `:100`, or
 /// the head of a SINUMERIK program, `%_N_NAME_SPF`.

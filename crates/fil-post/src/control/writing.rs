@@ -125,6 +125,7 @@ impl Control {
             speed_of_others::learn(self, &plain, true);
         }
         self.follow_feed_mode();
+        self.warn_other_offset();
         self.take_plane_back(&before);
         match edit {
             // The post has done what it wanted.
@@ -162,6 +163,7 @@ impl Control {
         let text = block.text.as_str();
         self.begin()?;
         if texts::begins_program(text) {
+            self.warn_second_program(text);
             self.state.program_begins();
         }
         self.require(Act::Block)?;
@@ -188,6 +190,7 @@ impl Control {
         }
         self.learn(block);
         self.follow_feed_mode();
+        self.warn_other_offset();
         self.take_plane_back(&before);
         self.doubt_changes(before)
     }
@@ -196,6 +199,30 @@ impl Control {
     fn follow_feed_mode(&mut self) {
         if let Some(mode) = self.state.get(modal::FEED_MODE) {
             self.tables.format_feed(mode);
+        }
+    }
+
+    /// Warns where an author's block has chosen another work offset than the CL file.
+    fn warn_other_offset(&mut self) {
+        let changed = self.state.groups().changed_since_foreign(modal::WORK_OFFSET);
+        if !changed || self.waiting.has(Function::WorkOffset) {
+            return;
+        }
+        let offsets = self.state.get(modal::ASKED_OFFSET).zip(self.state.get(modal::WORK_OFFSET));
+        if let Some((asked, now)) = offsets.filter(|(asked, now)| asked != now) {
+            let message =
+                format!("the CL file asks for work offset G{asked}, and a block has G{now}");
+            self.warnings.add(PostCode::OtherOffset, message);
+        }
+    }
+
+    /// Warns of a text that begins a program within the one that the post has begun.
+    fn warn_second_program(&mut self, text: &str) {
+        let Some(letter) = self.commons.read(loc::PROGRAM_NUMBER_ADDRESS) else { return };
+        if self.head.started && !self.state.is(modal::PROGRAM_END, true) {
+            let message =
+                format!("`{text}` behind the program number that the post writes ({letter})");
+            self.warnings.add(PostCode::SecondProgram, message);
         }
     }
 

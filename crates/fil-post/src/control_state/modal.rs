@@ -237,6 +237,8 @@ groups! {
     LENGTH_WORD / LengthWord: bool = NEVER, Kept;
     /// The code of the work offset (G54).
     WORK_OFFSET / WorkOffset: FunctionCode = NEVER, Unknown;
+    /// The code of the work offset that the CL file asked for.
+    ASKED_OFFSET / AskedOffset: FunctionCode = NEVER, Kept;
     /// How the spindle was last told to turn.
     SPINDLE / Spindle: Rotation = Know::Known(Value::Rotation(Rotation::Unsaid)), By(rotation_unread);
     /// M0 or M1 came since the spindle was turned: some machines stop it.

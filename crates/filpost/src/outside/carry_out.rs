@@ -10,6 +10,7 @@ use crate::cancel::CancelToken;
 use crate::event::Event;
 use crate::overview::Counted;
 use crate::report::Extents;
+use crate::statement::statement_text;
 use crate::tally::{Before, Motion};
 use crate::units::UnitSource;
 
@@ -92,7 +93,11 @@ impl Outside<'_, '_> {
                 observer(Event::Message(record.text.trim_end()));
             }
         }
+        let author_blocks = self.post.control.warnings.author_blocks;
         let mut result = self.post.begin(record, vocabulary);
+        if self.post.control.warnings.author_blocks != author_blocks && record.line != 0 {
+            self.author_statement = (record.line, statement_text(record, vocabulary));
+        }
         if result.is_ok() && self.post.has_more() {
             result = self.go_on();
         }

@@ -37,7 +37,11 @@ impl Outside<'_, '_> {
                 let text = file.text.lines().nth(made.line.saturating_sub(1) as usize);
                 TextSpan::line(&file.name, made.line, text.unwrap_or_default())
             }
-            None => TextSpan::line(&self.cl_name, author.line, ""),
+            None => {
+                let (line, text) = &self.author_statement;
+                let text = if *line == author.line { text } else { "" };
+                TextSpan::line(&self.cl_name, author.line, text)
+            }
         }
     }
 

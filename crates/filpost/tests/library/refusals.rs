@@ -180,3 +180,12 @@ fn errors_of_the_forms_of_a_dialect_do_not_follow_from_each_other() {
     let found = refused(&mill(), &format!("{HEAD}{camworks}"));
     assert_eq!(kinds(&found), ["E0405:6", "E0418:8"]);
 }
+
+#[test]
+fn the_block_of_an_author_that_leaves_a_doubt_is_shown() {
+    let cl = format!("{HEAD}RAPID\nGOTO / 0, 0, 50\nINSERT / M98 P100\nRAPID\nGOTO / 9, 0, 50\n");
+    let found = refused(&mill(), &cl);
+    let places: Vec<&str> =
+        found.diags()[0].spans.iter().map(|place| place.excerpt.as_str()).collect();
+    assert!(places.iter().any(|text| text.contains("M98 P100")), "{places:?}");
+}

@@ -69,6 +69,10 @@ fn place(control: &mut Control) -> Result<()> {
     let in_force = control.state.get(modal::WORK_OFFSET);
     let stays = control.block.g_codes().iter().any(|(code, _)| Some(*code) == in_force);
     counts_anew(control, stays);
+    let asked = control.block.g_codes().last().map(|(code, _)| *code);
+    if let Some(code) = asked {
+        control.state.set(modal::ASKED_OFFSET, code);
+    }
     match control.commons.read(loc::FIXTURE_PLACEMENT) {
         Placement::BlockOfItsOwn => {
             control.write_block()?;

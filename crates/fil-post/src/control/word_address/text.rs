@@ -7,7 +7,7 @@ use fil_machine::locations::{self as loc, SeqnoOnText};
 
 use super::modes::{self, Own};
 use crate::control::Control;
-use crate::control::texts::clean_message;
+use crate::control::texts::{MessageMarks, clean_message};
 use crate::control_state::{ForeignBlock, Meaning, functions, modal};
 use crate::errors::PostCode;
 
@@ -69,12 +69,11 @@ fn say_what_it_counts_on(control: &mut Control, words: &[(Letter, f64)]) -> Resu
 /// # Errors
 /// As [`Control::write_comment`].
 pub fn message(control: &mut Control, text: &str) -> Result<()> {
-    let open = control.commons.read(loc::MESSAGE_OUT_CHAR).unwrap_or('(');
-    let close = control.commons.read(loc::MESSAGE_IN_CHAR).unwrap_or(')');
+    let marks = MessageMarks::of(control);
     let longest = control.commons.int(loc::MESSAGE_MAX_CHARS).clamp(1, 120) as usize;
     let on_text = control.commons.read(loc::SEQNO_ON_TEXT);
     let numbered = matches!(on_text, SeqnoOnText::Pprint | SeqnoOnText::Both);
-    let (clean, changed) = clean_message(text, [open, close], control.tables.style.end_of_block);
+    let (clean, changed) = clean_message(text, marks.both(), control.tables.style.end_of_block);
     if changed {
         let message =
             format!("characters that must not reach the tape in `{}`", text.escape_debug());
@@ -88,7 +87,7 @@ pub fn message(control: &mut Control, text: &str) -> Result<()> {
         let mark = goes_on.filter(|_| rest.len() > longest);
         let (part, left) = rest.split_at(rest.len().min(longest - usize::from(mark.is_some())));
         let part: String = part.iter().copied().chain(mark).collect();
-        control.write_comment(&format!("{open}{part}{close}"), numbered)?;
+        control.write_comment(&marks.enclose(&part), numbered)?;
         rest = left;
     }
     Ok(())
