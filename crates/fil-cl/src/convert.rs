@@ -56,7 +56,8 @@ pub fn to_ncl(
     unit: Option<WordId>,
     mut output: impl Read + Write + Seek + Send,
 ) -> Result<Converted> {
-    let options = Options { raw: false, ..options };
+    // Subroutines are Creo's own, and who reads the file may take them as they are.
+    let options = Options { raw: false, expand_subroutines: false, ..options };
     let mut vocabulary = Vocabulary::new();
     let from = output.stream_position().map_err(|error| write_failed(&error))?;
     let start = cl.stream_position().map_err(|error| read_failed(&error, name))?;
@@ -76,7 +77,7 @@ pub fn to_ncl(
     cl.seek(io::SeekFrom::Start(start)).map_err(|error| read_failed(&error, name))?;
     output.seek(io::SeekFrom::Start(from)).map_err(|error| write_failed(&error))?;
     let mut reader = Reader::new(&mut cl, name, options);
-    let again = Options { dialect: None, decode: options.decode, ..Options::default() };
+    let again = Options { dialect: None, ..options };
     let mut back = Reader::new(&mut output, "the text for Creo", again);
     let mut found = Record::default();
     Statements::new(unit).all(&mut reader, &mut vocabulary, |record, vocabulary| {

@@ -32,13 +32,7 @@ pub(super) const RULES: DialectRules = DialectRules {
 
 fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
     match written.record.major {
-        w::CYCLE => {
-            if cycle::is_announced(written) {
-                return Ok(Outcome::Nothing);
-            }
-            cycle::positional(written)?;
-            return Ok(Outcome::Bound);
-        }
+        w::CYCLE => cycle::positional(written)?,
         w::FEDRAT if ["PERMIN", "PERREV"].contains(&written.name(0)) => {
             common::feed(written);
             return Ok(Outcome::Bound);

@@ -275,6 +275,10 @@ impl<'r> Reader<'r> {
             }
             match self.read_statement(vocab, record)? {
                 None => return Ok(false),
+                // Records that a call has made come before the next statement.
+                Some(Outcome::Nothing) if !self.made.is_empty() => {
+                    return self.read_one(vocab, record);
+                }
                 Some(Outcome::Nothing) => {}
                 Some(_) => return Ok(true),
             }

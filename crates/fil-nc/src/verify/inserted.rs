@@ -34,7 +34,7 @@ impl Expected {
             line = self.insert_statements(&line);
         }
         let Ok(block) = read_block(&line, "INSERT", 1) else { return };
-        self.insert_change(&block, settings);
+        self.insert_change(&block, text, settings);
         for word in &block.words {
             let number = word.number;
             match word.letter {
@@ -60,14 +60,15 @@ impl Expected {
 
     /// The length offset of the tool that a text changes to has its number, where the text calls
     /// no other.
-    fn insert_change(&mut self, block: &Block, settings: &Settings) {
+    fn insert_change(&mut self, block: &Block, text: &str, settings: &Settings) {
         let changes = |word: &Word| {
             word.letter == b'M'
                 && settings.dialect.auxiliary(word.number.digits) == Auxiliary::ToolChange
         };
         let tool = block.words.iter().find(|word| word.letter == b'T');
         let tool = tool.and_then(|word| u32::try_from(word.number.digits).ok());
-        if settings.calls_offsets() && tool.is_some() && block.words.iter().any(changes) {
+        let changes = block.words.iter().any(changes) || settings.changes_tool(text);
+        if settings.calls_offsets() && tool.is_some() && changes {
             self.length.require(tool, Due::WithZ);
         }
     }

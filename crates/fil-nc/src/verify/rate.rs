@@ -53,6 +53,9 @@ impl<C: Steps> Verifier<'_, C> {
                 let slack = self.slack_of_lead(found, a);
                 (a - b).abs() <= slack && (gains - others).abs() <= slack
             }
+            (Rate::PerTurn(a), Some(Rate::PerMinute(b))) if self.settings.feeds_by_the_minute() => {
+                self.is_by_the_minute(found, a, b)
+            }
             (Rate::PerMinute(rate), Some(Rate::Inverse(inverse))) => {
                 return self.check_time(cl_line, (from, found), rate, inverse);
             }
@@ -83,19 +86,23 @@ impl<C: Steps> Verifier<'_, C> {
         }
     }
 
-    /// A feed a turn may be told by the minute, at the speed of the spindle: that of a tap, that of
-    /// a live tool, whose turns the control may not count, and that of a control whose cycles know
-    /// no other. A drill would keep its feed a turn no longer where somebody turns the speed down.
+    /// The feed a turn of a tap may be told by the minute, at the speed of the spindle, and that of
+    /// a live tool, whose turns the control may not count. A drill would keep its feed a turn no
+    /// longer where somebody turns the speed down.
     fn is_told_by_the_minute(&self, hole: &Hole, found: &Move, wanted: Option<Rate>) -> bool {
         let (Some(Rate::PerTurn(turn)), Some(Rate::PerMinute(minute))) = (wanted, found.rate)
         else {
             return false;
         };
         let is_live = self.settings.is_mill_turn() && self.expected.mills();
-        let may_be = self.settings.feeds_holes_a_minute()
-            || found.in_cycle && (hole.kind == CycleKind::Tap || is_live);
+        let may_be = found.in_cycle && (hole.kind == CycleKind::Tap || is_live);
+        may_be && self.is_by_the_minute(found, turn, minute)
+    }
+
+    /// A feed a minute is one a turn at the speed of the spindle.
+    fn is_by_the_minute(&self, found: &Move, turn: f64, minute: f64) -> bool {
         let agrees = |speed: f64| (turn * speed - minute).abs() <= self.slack.of(Quantity::Feed);
-        may_be && found.modes.spindle.speed.and_then(Speed::turns).is_some_and(agrees)
+        found.modes.spindle.speed.and_then(Speed::turns).is_some_and(agrees)
     }
 
     /// The feed of a hole: CYCLE brings it within that of Z, along which cycles go.

@@ -7,7 +7,7 @@ use fil_machine::{FunctionCode, Letter, letters};
 
 use super::texts::without_blanks;
 use super::{Control, klartext, sinumerik, speed_of_others};
-use crate::control_state::{Effect, ForeignBlock, Know, Source};
+use crate::control_state::{Effect, ForeignBlock, Know, Source, modal};
 use crate::errors::PostCode;
 
 impl Control {

@@ -219,7 +219,8 @@ impl Control {
     /// Warns of a text that begins a program within the one that the post has begun.
     fn warn_second_program(&mut self, text: &str) {
         let Some(letter) = self.commons.read(loc::PROGRAM_NUMBER_ADDRESS) else { return };
-        if self.head.started && !self.state.is(modal::PROGRAM_END, true) {
+        // Behind the end of the main program come its subprograms.
+        if self.head.started && self.state.groups().written(modal::PROGRAM_END) == 0 {
             let message =
                 format!("`{text}` behind the program number that the post writes ({letter})");
             self.warnings.add(PostCode::SecondProgram, message);

@@ -66,7 +66,8 @@ impl Codes {
         auxiliary.retain(|(code, _)| said.iter().all(|(said, _)| said != code));
         let change = FUNCTIONS.iter().find(|row| row.meaning == Meaning::ToolChange);
         let changes = said.iter().filter(|(_, effect)| *effect == Effect::ToolChange);
-        auxiliary.extend(changes.zip(change.into_iter().cycle()).map(|((code, _), row)| (*code, row)));
+        auxiliary
+            .extend(changes.zip(change.into_iter().cycle()).map(|((code, _), row)| (*code, row)));
         Codes {
             auxiliary,
             said: said.into_iter().map(|(code, _)| code).collect(),

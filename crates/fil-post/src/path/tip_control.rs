@@ -168,7 +168,9 @@ fn names_tip(control: &mut Control, rotary: Option<[f64; 2]>) -> Result<()> {
         let axis = *control.tables.axis(number);
         match tip {
             Some(tip) => control.state.stand(axis.letter, axis.value(tip[number])?),
-            None if control.stands(number).is_some() => control.state.shifts(axis.letter, Source::Post),
+            None if control.stands(number).is_some() => {
+                control.state.shifts(axis.letter, Source::Post)
+            }
             None => {}
         }
     }

@@ -4,7 +4,7 @@
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations as loc;
 
 use super::cutter;
 use crate::cause::Cause;
@@ -23,7 +23,7 @@ const MOST: f64 = 1e9;
 /// No tool number, or one that does not fit; a tool change in cutter compensation.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let of_tool = items.len() > 1 && items.word_at(items.len() - 1, w::TOOL);
-    let counts_compensations = post.control.tables.family == ControlFamily::Sinumerik;
+    let counts_compensations = post.control.can().cutting_edges;
     let offset = match items.couplet(w::OSETNO)? {
         Some(offset) => Some(offset),
         // The compensations of a tool have numbers of their own where the control has them so.

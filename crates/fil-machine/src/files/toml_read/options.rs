@@ -152,8 +152,7 @@ impl TomlReader<'_> {
 
     /// Values that set the defaults of other options, as a style does.
     fn set_presets(&mut self, commons: &Commons, declared: &mut [Declared<'_>]) {
-        for at in 0..declared.len() {
-            let one = &mut declared[at];
+        for one in declared.iter_mut() {
             if let Some(default) = one.base_default.take().filter(|_| commons.options().is_base) {
                 one.option.value = default;
             }

@@ -172,8 +172,8 @@ impl Settings<'_> {
         }
     }
 
-    /// Feeds of cycles are written a minute, whatever mode they are asked for in.
-    pub fn feeds_holes_a_minute(&self) -> bool {
+    /// Feeds are written a minute, whatever mode they are asked for in.
+    pub fn feeds_by_the_minute(&self) -> bool {
         self.is_klartext()
     }
 

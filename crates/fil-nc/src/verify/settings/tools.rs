@@ -1,5 +1,6 @@
 //! How the machine calls and changes its tools, as `verify` expects it.
 
+use fil_machine::effects::Effect;
 use fil_machine::letter::letters;
 use fil_machine::locations::{
     self as loc, ControlFamily, ControlToolOffsets, ToolChangeBlock, ToolFormat,
@@ -51,6 +52,12 @@ impl Settings<'_> {
             && self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress
             && self.commons.read(loc::TOOL_LENGTH_CODE).is_some()
             && self.commons.read(loc::TOOL_LENGTH_FROM_TOOL)
+    }
+
+    /// `[effects]` says that a text changes the tool.
+    pub fn changes_tool(&self, text: &str) -> bool {
+        let found = self.commons.effects().of(text);
+        found.is_some_and(|found| found.rule.effect == Effect::ToolChange)
     }
 
     /// The length offset stands right behind the tool change.
