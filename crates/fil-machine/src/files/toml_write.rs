@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn effects_read_back() {
         let text =
-            "[effects]\n\"M98 P9001\" = \"tool change\"\n\"G65.1 P98*\" = \"returns clear\"\n";
+            "[effects]\n\"G65.1 P98*\" = \"returns clear\"\n\"M98 P9001\" = \"tool change\"\n";
         let (commons, _) = read_toml("m", text).unwrap();
         let written = write_toml(&commons);
         assert!(written.ends_with(text), "{written}");
