@@ -1,5 +1,5 @@
 //! What the passes ask of a control, whatever its language: one trait, which each family of controls
-//! implements in its folder, and a plain table of what the families have ([`super::families`]).
+//! implements in its folder, and a plain table of what the families have (`families`).
 
 use fil_diag::Result;
 use fil_machine::locations::ThreadCycle;

@@ -13,7 +13,7 @@ use fil_diag::Result;
 /// Takes a point of a thread that waits for it; a motion of any other thread is one pass.
 ///
 /// # Errors
-/// A third point; and as [`carry_out`].
+/// A third point; and as `carry_out`.
 #[cold]
 pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
     thread::check_speed(post)?;

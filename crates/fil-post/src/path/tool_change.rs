@@ -42,7 +42,7 @@ fn refuse_change_by_switch(control: &Control, tool: i64) -> Result<()> {
 /// prepares the next tool.
 ///
 /// # Errors
-/// As [`tool::prepare`], [`family::change_tool`] and a rapid motion; a block of the user
+/// As [`tool::prepare`], `change_tool` of the family and a rapid motion; a block of the user
 /// that the tape refuses.
 pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     let control = &mut post.control;
