@@ -440,7 +440,7 @@ fn subroutines_of_creo() {
     while reader.read(&mut vocab, &mut record).unwrap() {
         count += 1;
     }
-    assert_eq!(count, 10);
+    assert_eq!(count, 11);
 }
 
 /// A spline of NX without its ends begins where the tool stands and ends at its last point.
