@@ -1,4 +1,4 @@
-//! Options of a post: what whoever posts a part may choose, such as `preload = no`.
+//! Options of a post: choices for each program, such as `preload = no`.
 //!
 //! A `machine.toml` or a FIL file declares them; `[options]`, `--option` and the library give
 //! their values. A value makes settings, or FIL reads it by OPTIONF.
@@ -9,9 +9,7 @@ use fil_diag::suggest::did_you_mean;
 use fil_diag::{Diag, Result, TextSpan};
 
 use crate::errors::MachineCode;
-
-/// Millimeters in an inch.
-const MM_PER_INCH: f64 = 25.4;
+use crate::modes::INCH;
 
 /// Longest value of an option that is a text.
 const LONGEST_TEXT: usize = 54;
@@ -156,7 +154,7 @@ impl OptionKind {
 fn length(text: &str) -> Option<f64> {
     let (digits, factor) = match (text.strip_suffix("mm"), text.strip_suffix("in")) {
         (Some(digits), _) => (digits, 1.0),
-        (_, Some(digits)) => (digits, MM_PER_INCH),
+        (_, Some(digits)) => (digits, INCH),
         _ => (text, 1.0),
     };
     let number: f64 = digits.trim_end().parse().ok()?;

@@ -6,11 +6,11 @@
 
 use fil_cl::{Record, words};
 use fil_machine::Unit;
+use fil_machine::modes::INCH;
 use fil_vm::{TotalsOf, TotalsText, TotalsWord};
 
 use crate::tally::{Motion, Totals};
 
-const MM_IN_AN_INCH: f64 = 25.4;
 const SECONDS_IN_A_MINUTE: f64 = 60.0;
 
 /// Operations and tool changes that are kept.
@@ -245,7 +245,7 @@ impl Overview {
             }
             TotalsWord::Units => self.unit.map(|unit| match unit {
                 Unit::Mm => 1.0,
-                Unit::Inch => MM_IN_AN_INCH,
+                Unit::Inch => INCH,
             }),
             TotalsWord::Time => timed(totals.seconds()),
             TotalsWord::CuttingTime => timed(totals.cutting_seconds),

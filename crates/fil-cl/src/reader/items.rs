@@ -245,14 +245,16 @@ fn trim(text: &[u8], range: Range<usize>) -> Range<usize> {
     let end = part.iter().rposition(|byte| !is_blank(*byte)).map_or(start, |at| at + 1);
     range.start + start..range.start + end
 }
+
 /// Puts a comma for a blank that parts two items.
 fn part_at_blanks(items: &mut [u8]) {
-    let is_of_item = |byte: u8| !is_blank(byte) && byte != b',';
-    for at in 1..items.len().saturating_sub(1) {
-        let has_more = items[at..].iter().any(|byte| !is_blank(*byte));
-        let next = items[at..].iter().copied().find(|byte| !is_blank(*byte));
-        if is_blank(items[at]) && is_of_item(items[at - 1]) && has_more && next != Some(b',') {
-            items[at] = b',';
+    let mut at = 0;
+    while let Some(blank) = items[at..].iter().position(|byte| is_blank(*byte)) {
+        let blank = at + blank;
+        let Some(length) = items[blank..].iter().position(|byte| !is_blank(*byte)) else { return };
+        at = blank + length;
+        if blank > 0 && items[blank - 1] != b',' && items[at] != b',' {
+            items[blank] = b',';
         }
     }
 }

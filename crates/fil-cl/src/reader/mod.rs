@@ -235,7 +235,7 @@ impl<'r> Reader<'r> {
         Ok(false)
     }
 
-    /// Reads on to a record that is none of a subroutine under way.
+    /// Reads the next record of the path; those between DEFSUB and ENDSUB are kept for CALSUB.
     fn read_next(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<bool> {
         while self.read_one(vocab, record)? {
             if !self.subroutines.is_under_way() {

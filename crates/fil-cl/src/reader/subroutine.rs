@@ -32,6 +32,8 @@ struct UnderWay {
     /// Records of the file before it.
     records: u32,
     body: Vec<Record>,
+    /// Records that those before it leave room for.
+    room: usize,
 }
 
 impl Subroutines {
@@ -71,7 +73,10 @@ impl Reader<'_> {
             return Err(self.sub_error(&message));
         }
         let (line, records) = (record.line, self.number);
-        self.subroutines.under_way = Some(UnderWay { number, line, records, body: Vec::new() });
+        let kept: usize = self.subroutines.whole.iter().map(|(_, body)| body.len()).sum();
+        let room = MOST_RECORDS.saturating_sub(kept);
+        let sub = UnderWay { number, line, records, body: Vec::new(), room };
+        self.subroutines.under_way = Some(sub);
         self.modal.point = None;
         Ok(Outcome::Nothing)
     }
@@ -115,9 +120,8 @@ impl Reader<'_> {
     /// # Errors
     /// The program ends within it; too many records.
     pub(super) fn keep_for_subroutine(&mut self, record: &Record) -> Result<()> {
-        let kept: usize = self.subroutines.whole.iter().map(|(_, body)| body.len()).sum();
         let Some(sub) = &mut self.subroutines.under_way else { return Ok(()) };
-        let (line, is_full) = (sub.line, kept + sub.body.len() >= MOST_RECORDS);
+        let (line, is_full) = (sub.line, sub.body.len() >= sub.room);
         sub.body.push(Record { number: 0, ..record.clone() });
         self.number = sub.records;
         if is_full {

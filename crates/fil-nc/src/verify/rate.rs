@@ -86,9 +86,9 @@ impl<C: Steps> Verifier<'_, C> {
         }
     }
 
-    /// The feed a turn of a tap may be told by the minute, at the speed of the spindle, and that of
-    /// a live tool, whose turns the control may not count. A drill would keep its feed a turn no
-    /// longer where somebody turns the speed down.
+    /// A feed per minute may stand for the feed per revolution of a tap, at the spindle speed, and
+    /// of a live tool, which the control may not measure. A drill does not keep its feed per
+    /// revolution when the operator overrides the speed.
     fn is_told_by_the_minute(&self, hole: &Hole, found: &Move, wanted: Option<Rate>) -> bool {
         let (Some(Rate::PerTurn(turn)), Some(Rate::PerMinute(minute))) = (wanted, found.rate)
         else {
@@ -99,7 +99,7 @@ impl<C: Steps> Verifier<'_, C> {
         may_be && self.is_by_the_minute(found, turn, minute)
     }
 
-    /// A feed a minute is one a turn at the speed of the spindle.
+    /// A feed per minute equals one per revolution at the spindle speed.
     fn is_by_the_minute(&self, found: &Move, turn: f64, minute: f64) -> bool {
         let agrees = |speed: f64| (turn * speed - minute).abs() <= self.slack.of(Quantity::Feed);
         found.modes.spindle.speed.and_then(Speed::turns).is_some_and(agrees)

@@ -41,7 +41,7 @@ pub struct Capabilities {
     pub cycles_say_return: bool,
     /// Statements, and not functions, choose spindles and the modes of a mill-turn machine.
     pub mode_statements: bool,
-    /// Constant surface speed and turns a minute (G96, G97) are modes of the feed too.
+    /// G96 (constant surface speed) and G97 (rpm) set the feed mode too.
     pub speed_modes_say_feed: bool,
     /// A statement says that X is a diameter.
     pub diameter_statement: bool,
@@ -162,7 +162,7 @@ pub trait Family: std::fmt::Debug + Sync {
     /// Brings the control into the modes a motion counts on.
     ///
     /// # Errors
-    /// A mode that can't be said again.
+    /// A mode that can't be restated.
     fn ready(&self, control: &mut Control) -> Result<()> {
         words::ready(control)
     }
@@ -183,8 +183,8 @@ pub trait Family: std::fmt::Debug + Sync {
         words::ready_for_hole(control, in_cycle)
     }
 
-    /// True when the control has arcs and helices in a plane, and counts the length of the tool
-    /// along it there.
+    /// True when the control has arcs and helices in a plane, with the tool length offset along its
+    /// normal.
     fn has_arc(&self, control: &Control, plane: Plane) -> bool;
 
     /// True when the control reads an arc from its rounded words as it is meant.
@@ -338,7 +338,7 @@ pub trait Family: std::fmt::Debug + Sync {
         Ok(())
     }
 
-    /// Says again how X counts; false where a code says it.
+    /// Restates whether X is a diameter; false where a code says it.
     ///
     /// # Errors
     /// As a line of the tape.

@@ -2,7 +2,7 @@
 //! control learns from what was read.
 
 use fil_machine::effects::Effect as Rule;
-use fil_machine::locations::{self as loc};
+use fil_machine::locations as loc;
 use fil_machine::{FunctionCode, Letter, letters};
 
 use super::texts::without_blanks;
@@ -115,13 +115,13 @@ impl Control {
             Effect::ShiftAxes => state.shift_axes(Source::Author),
             Effect::Clears(letter) => state.clears(letter),
             Effect::Stands(letter, value) => state.stand(letter, value),
-            Effect::ToolChangeMoves => klartext::reader::tool_change_moves(self),
+            Effect::ToolChangeMoves => self.tool_change_moves(),
             Effect::Auxiliary(number) => klartext::reader::learn_function(self, number),
             Effect::EndsProgramText => klartext::reader::ends_program_text(self),
             Effect::Edge(value) => sinumerik::reader::edge(self, value),
             Effect::ChangesTool(tool) => {
                 state.learn_said_change(tool.filter(|tool| tool.fract() == 0.0), &self.codes);
-                klartext::reader::tool_change_moves(self);
+                self.tool_change_moves();
             }
             Effect::ReturnsClear => self.returns_clear(),
             Effect::KeepsPosition => state.keeps_position(),
@@ -134,9 +134,9 @@ impl Control {
 impl Control {
     /// A call of the shop has brought all axes clear of the part.
     fn returns_clear(&mut self) {
-        let present = self.tables.present();
-        let letters = present.numbers().map(|number| self.tables.axis(number).letter);
-        letters.for_each(|letter| self.state.clears(letter));
+        for number in self.tables.present().numbers() {
+            self.state.clears(self.tables.axis(number).letter);
+        }
         self.state.length_ends_at_machine(&self.codes, |_| true);
         self.state.forget(modal::MOTION, Source::Author);
     }

@@ -146,6 +146,13 @@ impl Control {
         }
     }
 
+    /// A tool change may have moved all axes.
+    pub fn tool_change_moves(&mut self) {
+        for number in self.tables.present().numbers() {
+            self.state.tool_change_moves(self.tables.axis(number).letter);
+        }
+    }
+
     /// An axis whose position is in doubt is taken to be where its last word brought it; the
     /// next motion outputs it again.
     pub fn assume_position(&mut self, number: usize) {

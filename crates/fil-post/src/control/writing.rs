@@ -4,7 +4,7 @@
 use fil_diag::Result;
 use fil_machine::Letter;
 use fil_machine::letters::{G, M};
-use fil_machine::locations::{self as loc};
+use fil_machine::locations as loc;
 use fil_machine::modes::Plane;
 
 use super::edit::plain;

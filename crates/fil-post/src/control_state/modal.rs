@@ -292,6 +292,11 @@ impl GroupSet {
         GroupSet(set)
     }
 
+    /// The same with one more.
+    pub const fn and(self, group: Group) -> Self {
+        GroupSet(self.0 | 1 << group as u32)
+    }
+
     #[inline]
     fn put(&mut self, group: usize, is_in: bool) {
         self.0 = self.0 & !(1 << group) | u64::from(is_in) << group;

@@ -2,7 +2,7 @@
 
 use fil_diag::Result;
 use fil_machine::letters;
-use fil_machine::locations::{self as loc};
+use fil_machine::locations as loc;
 
 use super::functions_of_others;
 use crate::control::Control;

@@ -2,7 +2,7 @@
 
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet, Position};
-use fil_machine::axis_chain::{self};
+use fil_machine::axis_chain;
 use fil_machine::errors::MachineCode;
 use nalgebra::{Point3, Vector3};
 

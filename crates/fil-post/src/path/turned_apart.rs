@@ -5,7 +5,7 @@
 use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::axis_chain::Carries;
-use fil_machine::locations::{self as loc};
+use fil_machine::locations as loc;
 
 use super::{frame, rapid_lean};
 use crate::control::Control;

@@ -4,6 +4,7 @@ use fil_cl::vocabulary::words;
 use fil_cl::{Record, Vocabulary, Word, keyed_cycle, record::kind};
 use fil_diag::Diag;
 use fil_machine::commons::EMPTY;
+use fil_machine::modes::INCH;
 use fil_machine::post_options::OptionValue;
 use fil_machine::{Unit, stored};
 use fil_post::FilLine;
@@ -194,7 +195,7 @@ pub(crate) fn option_value(value: &OptionValue, unit: Option<Unit>) -> Result<Re
         (OptionValue::Bool(is_on), _) => Returned::Number(f64::from(u8::from(*is_on))),
         (OptionValue::Integer(number), _) => Returned::Number(*number as f64),
         (OptionValue::Length(length), Some(Unit::Mm)) => Returned::Number(*length),
-        (OptionValue::Length(length), Some(Unit::Inch)) => Returned::Number(length / 25.4),
+        (OptionValue::Length(length), Some(Unit::Inch)) => Returned::Number(length / INCH),
         (OptionValue::Length(_), None) => {
             return fil_vm::errors::RunCode::Missing
                 .err("the unit of the CL file is not known here, so a length has no value yet");

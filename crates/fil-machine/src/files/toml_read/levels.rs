@@ -14,7 +14,7 @@ impl TomlReader<'_> {
     /// Sets the level of a code, of all codes, or the profile.
     ///
     /// # Errors
-    /// A key that is none of them, a value that is no level.
+    /// A key that is not `profile`, `all` or a code; a value that is not a level.
     pub(super) fn level(
         &self,
         commons: &mut Commons,

@@ -209,7 +209,7 @@ pub fn learn_function(control: &mut Control, number: f64) {
     learn_turning(control, number);
     control.state.learn_auxiliary(code, &control.codes, Source::Author);
     if code == TOOL_CHANGE {
-        tool_change_moves(control);
+        control.tool_change_moves();
     }
     // With the coolant.
     let rotation = match number as i64 {
@@ -218,13 +218,6 @@ pub fn learn_function(control: &mut Control, number: f64) {
         _ => return,
     };
     control.state.turns(rotation);
-}
-
-/// A tool change may have moved all axes.
-pub fn tool_change_moves(control: &mut Control) {
-    for number in control.tables.present().numbers() {
-        control.state.tool_change_moves(control.tables.axis(number).letter);
-    }
 }
 
 /// END PGM stands on the tape.

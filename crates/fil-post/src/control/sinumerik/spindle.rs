@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::letters::{F, S};
-use fil_machine::locations::{self as loc};
+use fil_machine::locations as loc;
 use fil_machine::modes::FeedMode;
 
 use crate::control::Control;

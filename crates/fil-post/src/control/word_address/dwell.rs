@@ -4,7 +4,7 @@ use fil_diag::Result;
 use fil_machine::Letter;
 use fil_machine::commons::{Dbl, Int};
 use fil_machine::letters::S;
-use fil_machine::locations::{self as loc};
+use fil_machine::locations as loc;
 use fil_machine::modes::{FeedMode, INCH};
 use fil_machine::number::NumberFormat;
 use fil_machine::rounding::Rounding;

@@ -2,7 +2,7 @@
 //! to be in them.
 
 use fil_diag::Result;
-use fil_machine::locations::{self as loc};
+use fil_machine::locations as loc;
 use fil_machine::modes::{Plane, Unit};
 use fil_machine::{FunctionCode, Letter};
 
@@ -32,6 +32,19 @@ impl Own {
     fn has_cycle(self) -> bool {
         self == Own::PlaneAndCycle
     }
+
+    /// The groups that must be as motions usually need them.
+    #[inline]
+    fn usual(self) -> GroupSet {
+        const BARE: GroupSet = GroupSet::of(&[Group::Distance, Group::DiameterMode]);
+        const IN_PLANE: GroupSet = BARE.and(Group::Cycle);
+        const ALL: GroupSet = IN_PLANE.and(Group::PlaneIsTemporary);
+        match self {
+            Own::Nothing => ALL,
+            Own::Plane => IN_PLANE,
+            Own::PlaneAndCycle => BARE,
+        }
+    }
 }
 
 /// Brings the control into the modes that motions of the post count on, but for those that the
@@ -43,33 +56,12 @@ impl Own {
 /// compensation that can't be said again in its middle.
 #[inline]
 pub fn require(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
-    let is_usual = control.state.groups().are_usual(OF_MOTIONS);
-    if is_usual && control.state.is(modal::UNITS, unit) && !length_plane::is_left(control) {
-        return Ok(());
-    }
-    require_each(control, unit, own)
-}
-
-/// What motions need besides the unit and the plane of a tool's length, and that the tool is one.
-const OF_MOTIONS: GroupSet = GroupSet::of(&[
-    Group::Tool,
-    Group::Distance,
-    Group::DiameterMode,
-    Group::PlaneIsTemporary,
-    Group::Cycle,
-    Group::CutterComp,
-]);
-
-fn require_each(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
     control.require_motion()?;
     let state = &control.state;
-    let stands = state.is(modal::UNITS, unit)
-        && state.is(modal::DISTANCE, Distance::Absolute)
-        && state.is(modal::DIAMETER_MODE, true)
-        && (own.has_plane() || !state.may_be(modal::PLANE_IS_TEMPORARY, true))
-        && !length_plane::is_left(control)
-        && (own.has_cycle() || state.is(modal::CYCLE, false))
-        && state.get(modal::CUTTER_COMP).is_some();
+    let stands = state.groups().are_usual(own.usual())
+        && state.is(modal::UNITS, unit)
+        && state.get(modal::CUTTER_COMP).is_some()
+        && !length_plane::is_left(control);
     if stands { Ok(()) } else { say_again(control, unit, own) }
 }
 

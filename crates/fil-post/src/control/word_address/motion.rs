@@ -6,7 +6,7 @@ mod leads;
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet};
 use fil_machine::letters::{F, H};
-use fil_machine::locations::{self as loc};
+use fil_machine::locations as loc;
 use fil_machine::modes::Plane;
 use fil_machine::rounding::Rounding;
 use fil_machine::{FunctionCode, Letter};

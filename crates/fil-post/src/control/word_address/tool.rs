@@ -102,9 +102,7 @@ fn tool_and_offset(control: &mut Control, wanted: ToolChange) -> Result<()> {
 /// Where axes and motion stand is not known: the change may have moved the machine.
 pub(in crate::control) fn restate(control: &mut Control) {
     if control.commons.read(loc::TOOL_RESTATE) {
-        for number in control.tables.present().numbers() {
-            control.state.tool_change_moves(control.tables.axis(number).letter);
-        }
+        control.tool_change_moves();
         control.state.forget(modal::MOTION, Source::Post);
     }
 }

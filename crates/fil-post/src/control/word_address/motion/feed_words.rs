@@ -2,7 +2,7 @@
 
 use fil_diag::Result;
 use fil_machine::letters::F;
-use fil_machine::locations::{self as loc};
+use fil_machine::locations as loc;
 use fil_machine::modes::FeedMode;
 use fil_machine::setting::CodeAt;
 

@@ -2,7 +2,7 @@
 //! those of one spindle, and a statement or a code says of which.
 
 use fil_diag::Result;
-use fil_machine::locations::{self as loc};
+use fil_machine::locations as loc;
 
 use super::{code_of_turns, is_of_surface, may_turn};
 use crate::control::Control;
