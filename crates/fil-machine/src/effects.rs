@@ -111,9 +111,9 @@ impl Effects {
         &self.rules
     }
 
-    /// What a block does: its exact text goes before one of its words, a word before a pattern, a
-    /// longer pattern before a shorter one. A G word takes the others as its arguments. A sequence number and the block-delete character do
-    /// not count.
+    /// What a block does: its exact text goes before one of its words, a word before several words
+    /// in a row, these before a pattern, a longer pattern before a shorter one. A G word takes the
+    /// others as its arguments. A sequence number and the block-delete character do not count.
     pub fn of(&self, block: &str) -> Option<Found<'_>> {
         if self.is_empty() {
             return None;
@@ -124,8 +124,12 @@ impl Effects {
             return Some(Found { rule, is_function: false });
         }
         let words = words(&text);
-        let is_word = |rule: &&Rule| words.iter().any(|word| *word == rule.pattern);
-        if let Some(rule) = self.rules.iter().find(is_word) {
+        let in_block = self.rules.iter().filter_map(|rule| {
+            let named = self::words(&rule.pattern);
+            let is_there = words.windows(named.len().max(1)).any(|run| run == named);
+            is_there.then_some((named.len(), rule))
+        });
+        if let Some((_, rule)) = in_block.min_by_key(|(count, _)| *count) {
             return Some(Found { rule, is_function: rule.function().is_some() });
         }
         let patterns = self.rules.iter().filter(|rule| rule.is_pattern());
@@ -202,6 +206,14 @@ mod tests {
         assert_eq!(of(&effects, "G65 P97"), None);
         assert_eq!(of(&effects, "(M73)"), None);
         assert_eq!(of(&effects, "M730"), None);
+    }
+
+    #[test]
+    fn a_call_is_found_beside_other_words() {
+        let effects = effects(&[("M98 P9001", Effect::ToolChange), ("M98*", Effect::Nothing)]);
+        assert_eq!(of(&effects, "T7 M98 P9001"), Some(Effect::ToolChange));
+        assert_eq!(of(&effects, "M98 P90012"), Some(Effect::Nothing));
+        assert_eq!(of(&effects, "M98 (P9001)"), Some(Effect::Nothing));
     }
 
     #[test]

@@ -35,10 +35,10 @@ pub struct Warnings {
     pub allowed_lines: Arc<AllowedLines>,
     /// The last block of an author: INSERT, POSTN, PREFUN, a machine text, an edited block.
     pub author: Option<Cause>,
-    /// The last of them that can't be read, or calls a program.
-    pub unread_block: Option<String>,
     /// How many there were.
     pub author_blocks: u64,
+    /// The last one, if the post does not know what it does.
+    pub unread_block: Option<String>,
     /// The block of an author that left the doubt which was denied.
     pub denied: Option<Cause>,
     known: HashSet<(u16, String)>,
@@ -95,6 +95,7 @@ impl Warnings {
     /// A block of an author goes to the tape.
     pub(crate) fn author_writes(&mut self, cause: Cause) {
         self.author = Some(cause);
+        self.unread_block = None;
         self.author_blocks += 1;
     }
 

@@ -7,7 +7,7 @@ use fil_machine::{FunctionCode, Letter, letters};
 
 use super::texts::without_blanks;
 use super::{Control, klartext, sinumerik, speed_of_others};
-use crate::control_state::{Effect, ForeignBlock, Know, Source, modal};
+use crate::control_state::{Effect, ForeignBlock, Know, Meaning, Source, modal};
 use crate::errors::PostCode;
 
 impl Control {
@@ -98,10 +98,14 @@ impl Control {
         speed_of_others::learn(self, block.certain_words(), is_certain);
     }
 
-    /// A block that can't be read whole, or calls a program.
+    /// A block that can't be read whole, calls a program, or has a G function of the shop.
     fn is_unread(&self, block: &ForeignBlock) -> bool {
-        let calls = |letter, code| letter == letters::M && self.codes.calls_program(code);
-        block.unread.is_some() || block.calls_subprogram() || block.has_function(calls)
+        let is_open = |letter, code| match letter {
+            letters::M => self.codes.calls_program(code),
+            letters::G => self.codes.meaning(code) == Meaning::Unknown,
+            _ => false,
+        };
+        block.unread.is_some() || block.calls_subprogram() || block.has_function(is_open)
     }
 
     fn take_effect(&mut self, effect: Effect) {
