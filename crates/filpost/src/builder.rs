@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use fil_cl::Vocabulary;
 use fil_diag::{Code, Diag, Level, Levels};
+use fil_machine::Commons;
 use fil_machine::locations::INPUT_CREO_RECORDS;
-use fil_machine::post_options::{GivenOption, PostOptions};
-use fil_machine::{Commons, contradictions, files as settings};
+use fil_machine::post_options::GivenOption;
 use fil_post::FilLine;
 use fil_post::warnings::AllowedLines;
 use fil_vm::{
@@ -16,43 +16,14 @@ use fil_vm::{
     Module, Returned,
 };
 
-use crate::allow::{self, LevelOf};
+use crate::allow::LevelOf;
 use crate::compat::CompatFile;
 use crate::editing;
-use crate::error::{Error, RunCode};
+use crate::error::Error;
 use crate::granted::{Clock, Spawn};
+use crate::machine::{self, Layers, Machine};
 use crate::program::{Program, Shared};
-use crate::ready;
 use crate::script_files::Folders;
-
-/// Where the settings of the machine come from.
-enum Machine {
-    Ready(String),
-    /// A ready post that nothing names: its options have the defaults of a base.
-    Generic(String),
-    Toml {
-        name: String,
-        text: String,
-    },
-    OptionFile {
-        name: String,
-        text: String,
-    },
-    Commons(Box<Commons>),
-}
-
-impl Machine {
-    /// What messages call it.
-    fn name(&self) -> Option<String> {
-        match self {
-            Machine::Ready(name)
-            | Machine::Generic(name)
-            | Machine::Toml { name, .. }
-            | Machine::OptionFile { name, .. } => Some(name.clone()),
-            Machine::Commons(_) => None,
-        }
-    }
-}
 
 /// Collects what a program is made of; see [`Program::builder`].
 #[must_use = "a builder makes no program before `build`"]
@@ -315,7 +286,7 @@ impl Builder {
     /// names of added functions; E0701 for a granted folder that is not there.
     pub fn build(self) -> Result<Program, Error> {
         let folders = self.folders()?;
-        let post = post(&self.layers(), self.machine.as_ref());
+        let post = machine::post(&self.layers(), self.machine.as_ref());
         let mut vocabulary = Vocabulary::new();
         let files: Vec<FilFile<'_>> =
             self.fil.iter().map(|(name, text)| FilFile { name, text }).collect();
@@ -375,7 +346,7 @@ impl Builder {
     /// # Errors
     /// All that is wrong with the machine and the settings.
     pub fn build_machine(self) -> Result<Commons, Error> {
-        let made = commons_with(&self.layers(), self.machine.as_ref());
+        let made = machine::commons_with(&self.layers(), self.machine.as_ref());
         made.map(|(commons, _)| commons).map_err(Error::Setup)
     }
 
@@ -428,121 +399,4 @@ fn at_levels(warnings: Vec<Diag>, levels: &Levels) -> Result<Vec<Diag>, Error> {
     let kept: Vec<Diag> = warnings.into_iter().filter_map(at_level).collect();
     let (errors, kept): (Vec<Diag>, Vec<Diag>) = kept.into_iter().partition(Diag::is_error);
     if errors.is_empty() { Ok(kept) } else { Err(Error::Setup(errors)) }
-}
-
-/// What is laid over a machine.
-struct Layers<'b> {
-    over: &'b [(String, String)],
-    settings: &'b [String],
-    options: &'b [GivenOption],
-    fil: &'b [(String, String)],
-    without_effect: &'b [String],
-}
-
-impl Layers<'_> {
-    /// All values of options, for a machine with this text; the later one counts.
-    fn options(&self, machine: Option<&(&str, &str)>, is_base: bool) -> PostOptions {
-        let over = self.over.iter().map(|(name, text)| (name.as_str(), text.as_str()));
-        let texts = machine.copied().into_iter().chain(over);
-        let of_settings = self.settings.iter().map(|setting| ("--set", setting.as_str()));
-        let given = texts.chain(of_settings);
-        let mut given: Vec<GivenOption> =
-            given.flat_map(|(name, text)| settings::given_options(name, text)).collect();
-        given.extend_from_slice(self.options);
-        let legacy = self.over.iter().any(|(_, text)| settings::is_option_text(text));
-        PostOptions::given(given, is_base || legacy)
-    }
-}
-
-/// The post of a machine with what is laid over it, and the warnings of both.
-///
-/// # Errors
-/// As [`commons_with`].
-fn post(
-    layers: &Layers<'_>,
-    machine: Option<&Machine>,
-) -> Result<(fil_post::Post, Vec<Diag>), Vec<Diag>> {
-    let (commons, warnings) = commons_with(layers, machine)?;
-    allow::refuse_unknown(commons.levels())?;
-    let post = fil_post::Post::new(commons).map_err(|diag| vec![*diag])?;
-    Ok((post, warnings))
-}
-
-/// A machine with what is laid over it, and the warnings of both.
-///
-/// # Errors
-/// All that is wrong with them; options that are not declared; settings that contradict each
-/// other, where each alone is right.
-fn commons_with(
-    layers: &Layers<'_>,
-    machine: Option<&Machine>,
-) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {
-    let generic = Machine::Generic(ready::GENERIC_MILL.into());
-    let machine = machine.unwrap_or(&generic);
-    let name = machine.name();
-    let (mut commons, mut warnings) = commons_of(machine, layers)?;
-    layers.without_effect.iter().for_each(|word| commons.list_without_effect(word));
-    let mut errors = Vec::new();
-    let over = layers.over.iter();
-    let over = over.map(|(name, text)| settings::lay_over(&mut commons, name, text));
-    let mut said: Vec<Result<Vec<Diag>, Vec<Diag>>> = over.collect();
-    let fil = layers.fil.iter().map(|(name, text)| {
-        settings::declare_fil_options(&mut commons, name, text).map(|()| Vec::new())
-    });
-    said.extend(fil);
-    let set = layers.settings.iter();
-    said.extend(set.map(|setting| settings::apply_setting(&mut commons, setting)));
-    said.push(commons.options().refuse_unknown().map(|()| Vec::new()));
-    for said in said {
-        match said {
-            Ok(said) => warnings.extend(said),
-            Err(wrong) => errors.extend(wrong),
-        }
-    }
-    if errors.is_empty() {
-        let found = contradictions::all(&commons).into_iter();
-        errors.extend(found.map(|diag| match &name {
-            Some(name) => diag.note(format!("in the settings of {name}")),
-            None => diag,
-        }));
-    }
-    if !errors.is_empty() {
-        return Err(errors);
-    }
-    Ok((commons, warnings))
-}
-
-fn commons_of(machine: &Machine, layers: &Layers<'_>) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {
-    let no_base = |_: &str| None;
-    match machine {
-        Machine::Commons(commons) => {
-            let mut commons = (**commons).clone();
-            commons.options_mut().give(layers.options(None, false));
-            Ok((commons, Vec::new()))
-        }
-        Machine::Toml { name, text } => {
-            let bases = |base: &str| ready::find(base).map(|post| post.machine);
-            let options = layers.options(Some(&(name, text)), false);
-            settings::read_toml_given(name, text, &bases, options)
-        }
-        Machine::OptionFile { name, text } => settings::read_option_file(name, text).map(|file| {
-            let mut commons = file.commons;
-            commons.options_mut().give(layers.options(None, true));
-            (commons, file.warnings)
-        }),
-        Machine::Ready(name) | Machine::Generic(name) => {
-            let post = ready::find(name).ok_or_else(|| {
-                let names: Vec<&str> = ready::READY.iter().map(|post| post.name).collect();
-                let diag = Diag::new(RunCode::NoReadyPost, format!("no ready post `{name}`"))
-                    .hint(format!("there are {}", names.join(", ")));
-                vec![diag]
-            })?;
-            let options = layers.options(None, matches!(machine, Machine::Generic(_)));
-            let read = settings::read_toml_given(post.name, post.machine, &no_base, options);
-            read.map(|(mut commons, warnings)| {
-                commons.options_mut().is_base = false;
-                (commons, warnings)
-            })
-        }
-    }
 }

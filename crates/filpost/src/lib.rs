@@ -42,6 +42,7 @@ mod finding;
 mod granted;
 pub mod includes;
 pub mod listing;
+mod machine;
 pub mod map;
 mod memory;
 mod outside;

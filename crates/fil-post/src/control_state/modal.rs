@@ -2,12 +2,16 @@
 //! a block that can't be read leaves of it; two alternatives of block delete are joined alike
 //! for all of them.
 
+mod usual;
+
 use std::marker::PhantomData;
 
 use fil_machine::FunctionCode;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 
 use super::{Compensation, CutterPath, Distance, Length, Rotation};
+pub use usual::GroupSet;
+use usual::is_usual;
 
 /// Who made a group unknown, or last wrote it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -257,52 +261,6 @@ groups! {
     PROGRAM_END / ProgramEnd: bool = OFF, Kept;
 }
 
-/// True for a value of a group beside which motions have nothing to say or to refuse.
-#[inline]
-fn is_usual(group: Group, value: Value) -> bool {
-    use Group::{
-        AxisClamp, CutterComp, CutterPath as Path, Cycle, DiameterMode, Distance as Counts,
-        PlaneIsTemporary, ProgramEnd, Spindle, SpindleHalted, Tool,
-    };
-    match (group, value) {
-        (Counts, Value::Distance(distance)) => distance == Distance::Absolute,
-        (DiameterMode, Value::Flag(on)) => on,
-        (PlaneIsTemporary | Cycle | AxisClamp | SpindleHalted | ProgramEnd, Value::Flag(on)) => !on,
-        (CutterComp, Value::Compensation(side)) => side == Compensation::Off,
-        (Path, Value::CutterPath(path)) => path != CutterPath::Leaving,
-        (Spindle, Value::Rotation(rotation)) => rotation != Rotation::Standing,
-        (Tool, Value::Number(_)) => true,
-        _ => false,
-    }
-}
-
-/// A set of groups.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct GroupSet(u64);
-
-impl GroupSet {
-    /// Of some groups.
-    pub const fn of(groups: &[Group]) -> Self {
-        let mut set = 0;
-        let mut at = 0;
-        while at < groups.len() {
-            set |= 1 << groups[at] as u32;
-            at += 1;
-        }
-        GroupSet(set)
-    }
-
-    /// The same with one more.
-    pub const fn and(self, group: Group) -> Self {
-        GroupSet(self.0 | 1 << group as u32)
-    }
-
-    #[inline]
-    fn put(&mut self, group: usize, is_in: bool) {
-        self.0 = self.0 & !(1 << group) | u64::from(is_in) << group;
-    }
-}
-
 /// A tool that depends on block delete is one until a tool change.
 fn either_stays(before: Know<Value>) -> Know<Value> {
     match before {
@@ -369,7 +327,7 @@ impl Groups {
     /// several times with each motion. If not, each is to be looked at.
     #[inline]
     pub fn are_usual(&self, groups: GroupSet) -> bool {
-        self.usual.0 & groups.0 == groups.0
+        self.usual.has_all(groups)
     }
 
     /// The value of a group, if it is known.
@@ -507,72 +465,4 @@ fn unread(group: Group, know: Know<Value>, source: Source) -> Know<Value> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn alternatives_of_block_delete_are_both_kept() {
-        let one = Know::Known(Plane::Xy);
-        assert_eq!(one.join(one), one);
-        let either = one.join(Know::Known(Plane::Zx));
-        assert_eq!(either.value(), None);
-        assert!(either.may_be(Plane::Zx) && !either.may_be(Plane::Yz));
-        let open = one.join(Know::Unknown(Source::Author));
-        assert!(open.may_be(Plane::Yz));
-    }
-
-    #[test]
-    fn an_unread_block_leaves_of_each_group_what_its_row_says() {
-        let mut groups = Groups::at_start();
-        groups.set(PLANE, Plane::Zx);
-        groups.set(SPEED_LIMIT, 3000.0);
-        groups.set(SURFACE_SPEED, true);
-        groups.doubt_all(Source::Author);
-        assert_eq!(groups.know(PLANE), Know::Unknown(Source::Author));
-        assert_eq!(groups.get(SPEED_LIMIT), Some(3000.0));
-        assert_eq!(groups.know(SURFACE_SPEED), Know::Either([Some(true), None]));
-    }
-
-    #[test]
-    fn a_tool_with_another_offset_depends_on_block_delete() {
-        let mut groups = Groups::at_start();
-        groups.set(TOOL, 3);
-        groups.set(LENGTH_OFFSET, 3);
-        let skipped = groups.clone();
-        groups.set(LENGTH_OFFSET, 13);
-        groups.join(&skipped);
-        assert!(groups.depends_on_block_delete(TOOL));
-        assert_eq!(groups.get(TOOL), Some(3));
-        groups.doubt(TOOL);
-        assert!(groups.depends_on_block_delete(TOOL));
-    }
-
-    #[test]
-    fn a_group_is_usual_by_what_is_known_of_it_last() {
-        let set = GroupSet::of(&[Group::Distance, Group::CutterComp]);
-        let mut groups = Groups::at_start();
-        assert!(groups.are_usual(set));
-        groups.set(CUTTER_COMP, Compensation::Left);
-        assert!(!groups.are_usual(set));
-        let skipped = Groups::at_start();
-        groups.join(&skipped);
-        assert!(!groups.are_usual(set), "it depends on block delete");
-        groups.set(CUTTER_COMP, Compensation::Off);
-        assert!(groups.are_usual(set));
-        groups.doubt(DISTANCE);
-        assert!(!groups.are_usual(set));
-        groups.set(DISTANCE, Distance::Absolute);
-        groups.doubt_all(Source::Author);
-        assert!(!groups.are_usual(set));
-    }
-
-    #[test]
-    fn a_write_within_a_foreign_block_is_seen() {
-        let mut groups = Groups::at_start();
-        groups.set(CUTTER_COMP, Compensation::Left);
-        groups.foreign_begins();
-        assert!(!groups.changed_since_foreign(CUTTER_COMP));
-        groups.set(CUTTER_COMP, Compensation::Left);
-        assert!(groups.changed_since_foreign(CUTTER_COMP));
-    }
-}
+mod tests;
