@@ -150,7 +150,7 @@ mod tests {
         let text = "UNITS / MM\nCYCLE / DRILL, DEPTH, 3.5, MMPM, 50., CLEAR, 1.\n\
                     GOTO / 1., 2., 0.5\nCYCLE / OFF\nGOTO / 1., 2., 5.\n";
         let hole = Hole { at: [1.0, 2.0], bottom: -3.0, clearance: 1.5 };
-        let expect = [Action::Hole(hole, Some(50.0)), Action::Feed([1.0, 2.0, 5.0], None)];
+        let expect = [Action::Hole(hole, Some(50.0)), Action::Feed([1.0, 2.0, 5.0], Some(50.0))];
         assert_eq!(steps(text).unwrap(), expect);
     }
 

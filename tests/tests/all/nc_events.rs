@@ -45,6 +45,10 @@ fn ready_programs_are_read_as_linuxcnc_reads_them() {
             return None;
         }
         let nc = String::from_utf8(nc).unwrap();
+        // Where G28 leads is set on the machine, and a cycle behind it begins there.
+        if nc.contains("G28") {
+            return None;
+        }
         let name = cl.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let ours = events(nc.as_bytes(), &name, &dialect);
         let calls = match rs274::run(&program, &nc) {

@@ -74,7 +74,7 @@ const FILES: &[(&str, Machine, Outcome)] = &[
     ("cl/solidworks-cam/Teflon-gasket.apt", Mill, Agrees),
     ("cl/solidworks-cam/Teste-Metrologia.apt", Tables, Agrees),
     ("cl/solidworks-cam/shimemcunha.apt", Tables, Agrees),
-    ("cl-more/camworks/UniSource.clt", Tables, Agrees),
+    ("cl-more/camworks/UniSource.clt", Tables, Refused("E0506", 90)),
     ("cl-more/catia/1_linear_3x_linear_3x_PATH1.aptsource", Tables, Agrees),
     ("cl-more/catia/1_linear_5x_linear_5x_PATH1.aptsource", Tables, Agrees),
     (

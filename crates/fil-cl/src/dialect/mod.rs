@@ -214,14 +214,6 @@ impl ClDialect {
         }
     }
 
-    /// The dialect that its signs show: a variant has the signs of its system.
-    pub(crate) fn system(self) -> ClDialect {
-        match self {
-            ClDialect::CamWorksAxis => ClDialect::CamWorks,
-            other => other,
-        }
-    }
-
     /// The name by which it is chosen.
     pub const fn name(self) -> &'static str {
         self.rules().name

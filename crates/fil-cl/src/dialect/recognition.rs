@@ -180,7 +180,7 @@ impl Recognition {
         let found = self.signs.iter().find(|(sign, _)| is_there(sign));
         let Some(dialect) = found.map(|(_, dialect)| *dialect) else { return };
         if self.found.evidence == Evidence::Chosen {
-            if dialect != self.found.dialect.system() && self.found.against.is_none() {
+            if dialect != self.found.dialect && self.found.against.is_none() {
                 self.found.against = Some((dialect, place().line));
             }
         } else if dialect != self.found.dialect && self.refused.is_none() {

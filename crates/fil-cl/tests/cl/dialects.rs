@@ -365,12 +365,12 @@ fn the_word_of_camworks_decides_at_a_cusp() {
     };
     assert_eq!(axis(ClDialect::CamWorks), -1.0);
     assert_eq!(axis(ClDialect::CamWorksAxis), 1.0);
-    // The signs of CAMWorks do not speak against its variant.
+    // Its arcs are proved, so its signs speak against the dialect that mirrors them.
     let options = Options { dialect: Some(ClDialect::CamWorksAxis), ..Options::default() };
     let mut reader = Reader::new(text.as_bytes(), "t", options);
     let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
     while reader.read(&mut vocab, &mut record).unwrap() {}
-    assert_eq!(reader.recognized().against, None);
+    assert_eq!(reader.recognized().against, Some((ClDialect::CamWorks, 1)));
 }
 
 /// No help names a dialect that would turn the arcs of a system that is known by its signs.

@@ -176,7 +176,7 @@ fn errors_of_the_forms_of_a_dialect_do_not_follow_from_each_other() {
     let nx = "TOOL PATH/A,TOOL,B\nCYCLE/DRIL\nCYCLE/ON,FEDTO,-5\nPAINT/PATH\nEND-OF-PATH\n";
     let found = refused(&mill(), &format!("UNITS/MM\nLOAD/TOOL,1\nFEDRAT/MMPM,5\n{nx}"));
     assert_eq!(kinds(&found), ["E0506:5"]);
-    let camworks = "BOX/0,0,0,1,1,1\nCYCLE/DRILL,G98,-5,5 5,3\nCYCLE/ON\nGOTO/1,2,3\nFINI\n";
+    let camworks = "BOX/0,0,0,1,1,1\nCYCLE/DRILL,G98,-5,5x5,3\nCYCLE/ON\nGOTO/1,2,3\nFINI\n";
     let found = refused(&mill(), &format!("{HEAD}{camworks}"));
     assert_eq!(kinds(&found), ["E0405:6", "E0418:8"]);
 }
