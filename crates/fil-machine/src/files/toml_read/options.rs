@@ -91,13 +91,13 @@ pub fn declare_fil_options(
 
 /// A FIL file with its declarations alone, each at its place; `None` where it has none.
 fn declarations(text: &str) -> Option<String> {
-    let mut any = false;
+    if !text.lines().any(|line| declaration(line).is_some()) {
+        return None;
+    }
     let mut made = String::with_capacity(text.len());
     for line in text.split_inclusive('\n') {
-        let declared = declaration(line);
-        any |= declared.is_some();
         let blank = |byte: u8| if byte == b'\n' || byte == b'\r' { char::from(byte) } else { ' ' };
-        match declared {
+        match declaration(line) {
             Some(at) => {
                 made.extend(line[..at].bytes().map(blank));
                 made.push_str("option.");
@@ -106,7 +106,7 @@ fn declarations(text: &str) -> Option<String> {
             None => made.extend(line.bytes().map(blank)),
         }
     }
-    any.then_some(made)
+    Some(made)
 }
 
 /// Where the word `option` of a declaration stands in a line.
