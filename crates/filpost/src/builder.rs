@@ -76,7 +76,7 @@ impl Builder {
         }
     }
 
-    /// A post inside the crate, by its name in [`ready::READY`].
+    /// A post inside the crate, by its name in [`crate::ready::READY`].
     pub fn ready(mut self, name: &str) -> Self {
         self.machine = Some(Machine::Ready(name.into()));
         self

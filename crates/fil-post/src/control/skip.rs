@@ -1,11 +1,11 @@
 //! Blocks that the operator can skip (OPSKIP).
 
-use fil_diag::Result;
+use fil_diag::{Diag, Result};
 use fil_machine::axes::AxisSet;
 
 use super::Control;
 use super::needs::Act;
-use crate::control_state::{Source, modal};
+use crate::control_state::Source;
 use crate::errors::PostCode;
 
 impl Control {
@@ -67,17 +67,17 @@ impl Control {
     /// As the row of a motion; the doubt, by its level.
     #[inline]
     pub fn require_motion(&mut self) -> Result<()> {
-        if self.state.groups().depends_on_block_delete(modal::TOOL) {
-            self.doubt_skipped_tool()?;
+        match self.require(Act::Motion) {
+            Ok(()) => Ok(()),
+            Err(refused) => self.doubt_skipped_tool(refused),
         }
-        self.require(Act::Motion)
     }
 
     #[cold]
-    fn doubt_skipped_tool(&mut self) -> Result<()> {
+    fn doubt_skipped_tool(&mut self, refused: Box<Diag>) -> Result<()> {
         // The post knows each tool that it changes.
         if !matches!(self.state.tools_by_block_delete(), Some([None, _])) {
-            return Ok(());
+            return Err(refused);
         }
         let diag = PostCode::AuthorChange.diag(
             "a block within OPSKIP changes the tool: block delete decides which one makes this \
@@ -85,7 +85,7 @@ impl Control {
         );
         self.doubt(Source::Author, diag, "taken to be the tool of the blocks that are run")?;
         self.state.has_tool(None);
-        Ok(())
+        self.require(Act::Motion)
     }
 }
 
