@@ -309,6 +309,15 @@ impl Record {
     /// Diameter of the tool that the record describes, in the unit of the CL file: the first
     /// value of CUTTER and of Creo's `$$-> CUTTER`, and TLDATA of a mill or drill of NX.
     pub fn tool_diameter(&self) -> Option<f64> {
+        self.tool_measure(0)
+    }
+
+    /// The corner radius that the record gives a tool beside its diameter, in the unit of the file.
+    pub fn tool_corner(&self) -> Option<f64> {
+        self.tool_measure(1)
+    }
+
+    fn tool_measure(&self, at: usize) -> Option<f64> {
         let values = match (self.major, self.data.first()) {
             (words::CUTTER, _) => &self.data[..],
             (words::TLDATA, Some(Word::Minor(words::MILL | words::DRILL))) => {
@@ -317,8 +326,8 @@ impl Record {
             }
             _ => return None,
         };
-        match values.first() {
-            Some(Word::Number(diameter)) => Some(*diameter),
+        match values.get(at) {
+            Some(Word::Number(measure)) => Some(*measure),
             _ => None,
         }
     }

@@ -76,6 +76,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     numbers::ranges(commons, &mut found);
     prepared_tools(commons, &mut found);
     frame_of_machine(commons, &mut found);
+    reference_points(commons, &mut found);
     tools_in_one_word(commons, &mut found);
     found
 }
@@ -357,6 +358,29 @@ fn frame_of_machine(commons: &Commons, found: &mut Vec<Diag>) {
         found.push(contradiction(
             "home.frame asks for positions in the frame of the machine by G53, which takes the \
              length of the tool off on a control that calls it by G54 to G59"
+                .into(),
+        ));
+    }
+}
+
+/// G28 and G30 go where parameters of the control say, by way of increments of 0.
+fn reference_points(commons: &Commons, found: &mut Vec<Diag>) {
+    let frame = commons.read(loc::HOME_FRAME);
+    if !matches!(frame, HomeFrame::ReferencePoint | HomeFrame::SecondReferencePoint) {
+        return;
+    }
+    if commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress {
+        found.push(contradiction(
+            "home.frame asks for the reference point by G28 or G30, which the language of the \
+             control does not have"
+                .into(),
+        ));
+    }
+    let positions = loc::HOME.into_iter().chain(loc::CHANGE_POSITION).chain([loc::HOME_RETRACT_Z]);
+    if positions.filter_map(|at| commons.dbl_opt(at)).any(|position| position != 0.0) {
+        found.push(contradiction(
+            "home.frame asks for the reference point, where home.x, y, z, home.retract_z and \
+             tool.change_x to tool.change_c are 0 or absent"
                 .into(),
         ));
     }

@@ -12,7 +12,7 @@ use crate::items::Items;
 use crate::no_effect;
 use crate::operation::End;
 use crate::operation::{POINT, Target};
-use crate::path::{Path, long_arc, tool_change};
+use crate::path::{Path, long_arc, tool_change, way_home};
 use crate::post::Post;
 use crate::site_word;
 use crate::words as word;
@@ -101,6 +101,9 @@ fn carry_out(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resul
     if record.inert {
         return note(post, record, vocabulary);
     }
+    if !post.control.messages.is_empty() && !takes_messages(record.major) {
+        way_home::write_messages(&mut post.control)?;
+    }
     match dispatch::of(record.major) {
         Some(Handler::Point(handle)) => {
             if record.number < post.path.named_frames.since {
@@ -129,6 +132,11 @@ fn carry_out(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resul
         Some(Handler::Refused) => Err(refused(record, vocabulary)),
         None => Err(unknown(record.major, vocabulary)),
     }
+}
+
+/// A message waits for what comes behind these words: for a tool change that stops before it.
+fn takes_messages(word: WordId) -> bool {
+    matches!(word, w::PPRINT | w::TPRINT | w::CUTTER | w::LOADTL | w::LOAD | w::TURRET)
 }
 
 /// What a word without effect says all the same: the name of a tool, the frame of the points.

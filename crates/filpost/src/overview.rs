@@ -24,6 +24,8 @@ pub(crate) struct Counted {
     pub other_seconds: f64,
     /// Diameter of the tool in use, as the CL file gives it.
     pub diameter: Option<f64>,
+    /// Its corner radius.
+    pub corner: Option<f64>,
     /// The unit of the CL file.
     pub unit: Option<Unit>,
 }
@@ -53,9 +55,36 @@ pub(crate) struct Overview {
 struct ToolEntry {
     number: f64,
     diameter: Option<f64>,
+    corner: Option<f64>,
     length: Option<f64>,
     name: Option<String>,
     totals: Totals,
+}
+
+impl ToolEntry {
+    /// `T1 D=12. CR=0. - ZMIN=-5. - NAME`, without what the CL file does not say.
+    fn line(&self) -> String {
+        let measure = |name: &str, value: Option<f64>| {
+            value.map_or(String::new(), |value| format!(" {name}={}", length(value)))
+        };
+        let mut line = format!("T{}", self.number);
+        line.push_str(&measure("D", self.diameter));
+        line.push_str(&measure("CR", self.corner));
+        if let Some(reach) = &self.totals.reach {
+            line.push_str(&format!(" - ZMIN={}", length(reach.min[2])));
+        }
+        if let Some(name) = &self.name {
+            line.push_str(&format!(" - {name}"));
+        }
+        line
+    }
+}
+
+/// A length with a point and at most four decimals: `12.`, `-0.5`.
+fn length(value: f64) -> String {
+    let text = format!("{value:.4}");
+    let text = text.trim_end_matches('0');
+    if text == "-0." { "0.".into() } else { text.into() }
 }
 
 /// What is done from one sign of the CAM system to the next.
@@ -151,7 +180,7 @@ impl Overview {
             self.pending.seconds += seconds;
         }
         if let Some(motion) = &counted.motion {
-            self.move_to(motion, counted.diameter);
+            self.move_to(motion, counted);
         }
     }
 
@@ -181,11 +210,12 @@ impl Overview {
         self.tool = Some(index);
     }
 
-    fn move_to(&mut self, motion: &Motion, diameter: Option<f64>) {
+    fn move_to(&mut self, motion: &Motion, counted: &Counted) {
         let pending = std::mem::take(&mut self.pending);
         if let Some(tool) = self.tool {
             let entry = &mut self.tools[tool];
-            entry.diameter = entry.diameter.or(diameter);
+            entry.diameter = entry.diameter.or(counted.diameter);
+            entry.corner = entry.corner.or(counted.corner);
             entry.name = entry.name.take().or(pending.tool_name.clone());
             entry.totals.add(motion);
         }
@@ -224,6 +254,12 @@ impl Overview {
             rest.for_each(|other| first.totals.join(&other.totals));
             self.operations.push(first);
         }
+    }
+
+    /// The tools in the order of their first change, a line each: number, diameter, corner radius,
+    /// lowest Z, name.
+    pub fn tool_list(&self) -> Vec<String> {
+        self.tools.iter().map(ToolEntry::line).collect()
     }
 
     /// A number that a script asks for.

@@ -52,6 +52,18 @@ impl Pass {
         })
     }
 
+    /// The tools that the first pass has found, a line each; `None` where there was none.
+    pub fn tool_list(&mut self) -> Option<Vec<String>> {
+        match self {
+            Pass::Only => None,
+            Pass::First { .. } => Some(Vec::new()),
+            Pass::Second { first, told, .. } => {
+                *told = true;
+                Some(first.overview.tool_list())
+            }
+        }
+    }
+
     /// What this pass counts.
     #[inline]
     pub fn counted(&mut self) -> Option<&mut Overview> {

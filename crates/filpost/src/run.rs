@@ -12,6 +12,7 @@ use std::path::PathBuf;
 use fil_cl::reader::{self, Reader};
 use fil_cl::{Record, Vocabulary};
 use fil_machine::Unit;
+use fil_machine::locations as loc;
 
 use crate::blocks::Blocks;
 use crate::cancel::CancelToken;
@@ -316,10 +317,12 @@ impl<'o> Run<'o> {
         Start { program, cl_name, raw, units, cancel, observers, map, pass, debugger }
     }
 
-    /// Counts what the FIL asks of the whole program, where it does; the input then stands
+    /// Counts what the FIL or the tool list asks of the whole program, where they do; the input then stands
     /// where it stood.
     fn first_pass(&self, cl: &mut (impl Read + Seek + Send)) -> Result<Option<FirstPass>, Error> {
-        if !self.program.shared.module.asks_totals() {
+        let shared = &self.program.shared;
+        let lists_tools = shared.prototype.control.commons.read(loc::PROGRAM_TOOL_LIST);
+        if !shared.module.asks_totals() && !lists_tools {
             return Ok(None);
         }
         let name = self.name();

@@ -259,6 +259,11 @@ impl<'r> Source<'r> {
         self.tool.diameter
     }
 
+    /// Corner radius of the tool in use, as far as the records that were read give it.
+    pub fn corner(&self) -> Option<f64> {
+        self.tool.corner
+    }
+
     /// The tool changes behind the current record, which takes a tool; nothing is consumed.
     /// Records that can't go back are kept, up to [`TOOLS_AHEAD`] of them. What is wrong with
     /// a record is said when it is read.
@@ -394,23 +399,25 @@ fn tool_of(record: &Record) -> Option<i64> {
 #[derive(Clone, Copy, Default, PartialEq)]
 struct Tool {
     diameter: Option<f64>,
+    corner: Option<f64>,
     /// A motion came since the tool was changed or described.
     has_moved: bool,
 }
 
 impl Tool {
     /// The tool behind records that nobody has read.
-    const UNKNOWN: Tool = Tool { diameter: None, has_moved: true };
+    const UNKNOWN: Tool = Tool { diameter: None, corner: None, has_moved: true };
 
     /// A diameter before a tool change is that of the new tool, unless a motion came between.
     fn take(&mut self, record: &Record) {
         if changes_tool(record) {
             if self.has_moved {
-                self.diameter = None;
+                (self.diameter, self.corner) = (None, None);
             }
             self.has_moved = false;
         } else if let Some(diameter) = record.tool_diameter() {
-            *self = Tool { diameter: Some(diameter), has_moved: false };
+            let corner = record.tool_corner();
+            *self = Tool { diameter: Some(diameter), corner, has_moved: false };
         }
     }
 }

@@ -249,7 +249,11 @@ impl State<'_> {
         if between != self.at {
             self.go((between, known), Course::Rapid, None);
         }
-        self.go_to_machine(between, axes.named());
+        // The reference point is the zero of the machine.
+        let named = axes.named();
+        let mut to = between;
+        (0..5).filter(|n| named[*n]).for_each(|n| to[n] = 0.0);
+        self.go_to_machine(to, named);
         Ok(())
     }
 

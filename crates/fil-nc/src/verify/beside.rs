@@ -157,6 +157,7 @@ impl<C: Steps> Verifier<'_, C> {
     }
 
     pub(super) fn end(&mut self, cl_line: u32, end: End) {
+        self.go_home_at_end(cl_line);
         self.pass(cl_line);
         while !self.at_end() {
             self.extra(1, cl_line);
@@ -189,6 +190,15 @@ impl<C: Steps> Verifier<'_, C> {
             _ => {}
         }
         self.extra(usize::MAX, cl_line);
+    }
+
+    /// Coolant and spindle off and the way home, where the settings end programs so.
+    fn go_home_at_end(&mut self, cl_line: u32) {
+        self.take_blocks(&self.settings.blocks_of_switching_off());
+        let to = self.settings.home_at_end(self.limits.metric);
+        if to != [None; 3] {
+            self.go_to_machine(cl_line, to);
+        }
     }
 
     pub(super) fn ends_early(&mut self, step: &Step) {

@@ -212,6 +212,14 @@ impl<C: Steps> Verifier<'_, C> {
         self.facts.add_if(Fact::Away, is_above);
     }
 
+    /// The way up before another work offset, of a tool that has come to the part.
+    pub(super) fn go_up_for_offset(&mut self, cl_line: u32) {
+        let is_in_part = !self.facts.has(Fact::FreshTool) && !self.facts.has(Fact::Away);
+        if self.settings.goes_up_for_offsets() && is_in_part {
+            self.retract(cl_line);
+        }
+    }
+
     /// A rotary axis turns by itself to a position, at rapid.
     pub(super) fn turn(&mut self, cl_line: u32, index: usize, angle: f64, way: TableWay) {
         self.report.compared += 1;

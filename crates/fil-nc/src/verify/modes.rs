@@ -182,6 +182,14 @@ impl Expected {
         self.fixture.allowed = offsets;
     }
 
+    /// A tool change says the work offset of the machine where no record has named one.
+    pub(super) fn take_first_offset(&mut self, settings: &Settings) {
+        let first = settings.first_work_offset().filter(|_| !self.fixture.is_asked);
+        if first.is_some() {
+            self.fixture.must = Some(first);
+        }
+    }
+
     /// The tool that must be in the spindle, as far as it is known.
     pub(super) fn tool(&self) -> Option<u32> {
         self.tool.number

@@ -25,9 +25,16 @@ impl<C: Steps> Verifier<'_, C> {
             return self.expected.change_tool(number, offset, self.settings);
         }
         self.await_blocks_before_change();
+        let is_first = self.blocks.changes == 0;
         self.blocks.changes += 1;
+        if !is_first {
+            self.take_blocks(&self.settings.blocks_of_switching_off());
+        }
         self.go_to_change_position(cl_line);
         self.take_awaited_blocks();
+        if !is_first {
+            self.ask_auxiliary(cl_line, self.settings.stop_at_change());
+        }
         match self.units_to_tool_change() {
             Some(left_out) => self.extra(left_out, cl_line),
             None => {
@@ -62,6 +69,7 @@ impl<C: Steps> Verifier<'_, C> {
             }
         }
         self.expected.change_tool(number, offset, self.settings);
+        self.expected.take_first_offset(self.settings);
         self.go_to_offset_level(cl_line);
         self.take_blocks_after_change();
     }

@@ -155,8 +155,12 @@ impl<'a, C: Steps> Verifier<'a, C> {
     pub(super) fn step(&mut self, step: &Step) {
         // A text may ask which event came before.
         self.nc.forget(self.next.saturating_sub(1));
+        let offset = self.expected.fixture.must;
         self.expected.take(&step.what, self.settings);
         match &step.what {
+            ExpectedStep::WorkOffset(_) if offset != self.expected.fixture.must => {
+                self.go_up_for_offset(step.line);
+            }
             ExpectedStep::Metric(metric) => {
                 self.limits.metric = *metric;
                 self.slack = self.settings.slack(*metric);

@@ -16,9 +16,19 @@ use crate::operation::motion::Motion;
 /// The axes of the block go where they say in the frame of the machine.
 const MACHINE: FunctionCode = FunctionCode::whole(53);
 
-/// True for a machine whose home, retract and change positions are its own coordinates.
+/// True for a machine whose home, retract and change positions are its own coordinates, or its
+/// reference point.
 pub fn is_meant(control: &Control) -> bool {
-    control.commons.read(loc::HOME_FRAME) == HomeFrame::OfTheMachine
+    control.commons.read(loc::HOME_FRAME) != HomeFrame::OfThePart
+}
+
+/// The function that goes to the reference point, where home is that.
+fn reference(control: &Control) -> Option<FunctionCode> {
+    match control.commons.read(loc::HOME_FRAME) {
+        HomeFrame::OfThePart | HomeFrame::OfTheMachine => None,
+        HomeFrame::ReferencePoint => Some(FunctionCode::whole(28)),
+        HomeFrame::SecondReferencePoint => Some(FunctionCode::whole(30)),
+    }
 }
 
 /// What comes behind the motion.
@@ -26,6 +36,8 @@ pub fn is_meant(control: &Control) -> bool {
 pub enum Before {
     /// A tool change, which says the offset of the new tool.
     ToolChange,
+    /// The end of the program: no tool is used any more.
+    End,
     /// Anything else: the offset of the tool stays.
     Others,
 }
@@ -98,11 +110,21 @@ fn block(control: &mut Control, motion: &Motion) -> Result<()> {
 }
 
 /// Writes the block under construction as a rapid motion to a position of the machine by its
-/// function (G53), and ends the length of the cutting edge in it (D0).
+/// function (G53), and ends the length of the cutting edge in it (D0). To the reference point it
+/// goes straight, by an increment of 0 (`G28 G91 Z0.`).
 ///
 /// # Errors
-/// The machine has no code for rapid motions.
+/// The machine has no code for rapid motions, or none for increments.
 pub(super) fn by_code(control: &mut Control, ends_edge: bool) -> Result<()> {
+    if let Some(function) = reference(control) {
+        let [increments, absolute] = [loc::MODE_INCREMENTAL_CODE, loc::MODE_ABSOLUTE_CODE]
+            .map(|at| control.code(at, "the way to the reference point"));
+        control.g(function);
+        control.g(increments?);
+        control.write_block()?;
+        control.g(absolute?);
+        return control.write_block();
+    }
     let code = control.code(loc::RAPID_CODE_Z, "rapid motion")?;
     control.g(MACHINE);
     control.g(code);

@@ -97,6 +97,10 @@ pub(crate) struct Tools {
     pub changes: u32,
     /// The tool that was named last as the next one, since the last change.
     pub prepared: Option<i64>,
+    /// The first tool of the program.
+    pub first: Option<i64>,
+    /// The work offset that SET/OFSETL named last, itself without a number.
+    pub work_offset: Option<Option<i64>>,
 }
 
 /// The output side of the post.
@@ -140,6 +144,8 @@ pub struct Control {
     pub(crate) coolant: Option<CodeAt>,
     /// Tools that were changed and prepared.
     pub(crate) tools: Tools,
+    /// Messages that wait for a tool change, with their causes.
+    pub(crate) messages: Vec<(String, Cause)>,
     /// The compensation the CL file asks for.
     asked: Compensation,
     /// ARCSLP is on: blocks of a helix say how far it rises.
@@ -180,6 +186,7 @@ impl Control {
             rotary: full_turn::Rotary::default(),
             spindle: spindle::SpindleAsked::default(),
             tools: Tools::default(),
+            messages: Vec::new(),
             block: Block::default(),
             straight: false,
             moved_in_plane_behind: 0,

@@ -6,10 +6,10 @@
 
 use fil_diag::Result;
 use fil_machine::commons::Dbl;
-use fil_machine::locations::{self as loc, TapePartnoText};
+use fil_machine::locations::{self as loc, TapePartnoText, ToolFormat};
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::setting::{CharacterAt, CodeAt};
-use fil_machine::{Commons, FunctionCode, user_blocks};
+use fil_machine::{Commons, FunctionCode, osp_lengths, user_blocks};
 
 use super::Control;
 use super::texts::MessageMarks;
@@ -23,6 +23,9 @@ const LONGEST_LEADER: usize = 10_000;
 
 /// Program numbers have at most four digits.
 const NUMBERS: i64 = 100_000_000;
+
+/// Ends the length offset of a tool (G49).
+const LENGTH_OFF: FunctionCode = FunctionCode::whole(49);
 
 /// Modes that the program says at its start, and those the control has anyway.
 const START_MODES: [(CodeAt, CodeAt); 3] = [
@@ -40,6 +43,8 @@ pub struct ProgramHead {
     pub name: String,
     /// Date and time, where the machine wants them.
     pub time: Option<String>,
+    /// The tools, a line each, where the machine lists them; `None` where nobody has counted them.
+    pub tools: Option<Vec<String>>,
     /// The PARTNO record.
     pub cause: Cause,
     /// The start of the program has been written.
@@ -112,7 +117,8 @@ fn write_start(control: &mut Control) -> Result<()> {
     let own_start = !blocks.is_empty();
     // Texts that say no unit leave a machine of both units in any.
     let of_both = control.commons.read(loc::UNITS_MODE) == loc::UnitsMode::AsTheClFile;
-    let unit = control.unit.filter(|_| !(own_start && of_both));
+    let safe_start = control.commons.read(loc::PROGRAM_SAFE_START);
+    let unit = control.unit.filter(|_| safe_start || !(own_start && of_both));
     control.state = state_at_start(&control.commons, unit);
     if control.family().start(control, &blocks)? {
         return Ok(());
@@ -124,19 +130,27 @@ fn write_start(control: &mut Control) -> Result<()> {
     part_name(control)?;
     program_number(control)?;
     time_stamp(control)?;
+    tool_list(control)?;
+    if !own_start || safe_start {
+        refuse_a_unit_without_code(control)?;
+        if safe_start {
+            safe_start_blocks(control)?
+        } else {
+            mode_codes(control)
+        }
+        control.write_block()?;
+    }
     let at_start = Modes::of(control);
-    if own_start && control.commons.read(loc::LATHE_DIAMETER) {
+    let says_no_modes = own_start && !safe_start;
+    if says_no_modes && control.commons.read(loc::LATHE_DIAMETER) {
         Modes::UNSAID.put(control);
     }
     for block in blocks {
         control.write_text(&block, true)?;
     }
-    if own_start {
+    if says_no_modes {
         say_what_is_unsaid(control, at_start);
         say_diameters(control);
-    } else {
-        refuse_a_unit_without_code(control)?;
-        mode_codes(control);
     }
     control.write_block()?;
     control.family().begin_diameters(control)
@@ -227,6 +241,41 @@ fn mode_codes(control: &mut Control) {
     START_MODES.into_iter().for_each(|mode| say_mode(control, mode));
 }
 
+/// Writes the modes with the ends of what an interrupted program has left in force, then the unit.
+///
+/// # Errors
+/// As a block on the tape.
+fn safe_start_blocks(control: &mut Control) -> Result<()> {
+    START_MODES.into_iter().for_each(|mode| say_mode(control, mode));
+    let by_functions = control.can().length_functions;
+    let calls = control.code_if_any(loc::TOOL_LENGTH_CODE).is_some_and(|_| by_functions);
+    let one_word = control.commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode;
+    let length = calls && !one_word && !osp_lengths::are_meant(&control.commons);
+    let ends = [
+        control.code_if_any(loc::CUTCOM_OFF_CODE),
+        length.then_some(LENGTH_OFF),
+        control.code_if_any(loc::CYCLE_OFF_CODE).filter(|_| !control.can().cycle_calls),
+    ];
+    ends.into_iter().flatten().for_each(|code| control.g(code));
+    control.write_block()?;
+    let unit = control.unit.and_then(|unit| control.code_if_any(unit_code(unit)));
+    if let Some(code) = unit {
+        control.g(code);
+    }
+    say_diameters(control);
+    Ok(())
+}
+
+/// Says plane, coordinates and feed mode again, so that the program can be begun here.
+///
+/// # Errors
+/// As a block on the tape.
+pub fn say_modes_again(control: &mut Control) -> Result<()> {
+    let [positions, feed, plane] = START_MODES;
+    [plane, positions, feed].into_iter().for_each(|mode| say_mode(control, mode));
+    control.write_block()
+}
+
 /// Adds the code of a mode, but where the control is in it anyway.
 fn say_mode(control: &mut Control, (at, in_force): (CodeAt, CodeAt)) {
     let in_force = control.code_if_any(in_force);
@@ -298,7 +347,9 @@ fn program_number(control: &mut Control) -> Result<()> {
         return PostCode::ProgramNumber
             .err(format!("program number {number} has more than eight digits"));
     }
-    let width = if fixed.is_some() { 1 } else { 4 };
+    let usual = if fixed.is_some() { 1 } else { 4 };
+    let width =
+        control.commons.int_opt(loc::PROGRAM_NUMBER_DIGITS).unwrap_or(usual).clamp(1, 8) as usize;
     let mut line = format!("{letter}{number:0width$}");
     if control.commons.read(loc::PROGRAM_NAME_COMMENT) && !control.head.name.is_empty() {
         let name = control.head.name.replace(['(', ')'], " ");
@@ -320,6 +371,27 @@ fn time_stamp(control: &mut Control) -> Result<()> {
     }
     let marks = MessageMarks::of(control);
     control.put_line(&marks.enclose(&time), false).map(|_| ())
+}
+
+/// Lists the tools in comments, where the machine wants them.
+fn tool_list(control: &mut Control) -> Result<()> {
+    if !control.commons.read(loc::PROGRAM_TOOL_LIST) {
+        return Ok(());
+    }
+    let Some(tools) = control.head.tools.take() else {
+        let message = "the list of tools (program.tool_list): the CL file can't be read twice";
+        control.warnings.add(PostCode::IgnoredPart, message.to_string());
+        return Ok(());
+    };
+    let end = control.tables.style.end_of_block;
+    let (marks, brackets) = (MessageMarks::of(control), control.can().brackets_are_comments);
+    for tool in tools {
+        let (tool, _) = super::texts::clean_message(&tool, marks.both(), end);
+        let tool = control.in_tape_characters(&tool);
+        let line = if brackets { marks.enclose(&tool) } else { format!("; {tool}") };
+        control.put_line(&line, false)?;
+    }
+    Ok(())
 }
 
 /// Writes PARTNO as a comment before the program, where the machine wants it.

@@ -16,6 +16,14 @@ use crate::post::Post;
 /// # Errors
 /// Cutter compensation that is on, and all that a rapid motion refuses.
 pub fn carry_out(post: &mut Post, to: [Option<f64>; 3]) -> Result<()> {
+    carry_out_before(post, to, Before::Others)
+}
+
+/// The same where it is known what comes behind it.
+///
+/// # Errors
+/// As [`carry_out`].
+pub fn carry_out_before(post: &mut Post, to: [Option<f64>; 3], before: Before) -> Result<()> {
     post.control.require(Act::MachinePosition)?;
     let was_in_part = post.path.point.is_some();
     post.path.interrupt();
@@ -36,7 +44,7 @@ pub fn carry_out(post: &mut Post, to: [Option<f64>; 3]) -> Result<()> {
         }
         tip_control::end(&mut post.control)?;
         frame::end(&mut post.control)?;
-        machine_frame::go(&mut post.control, &motion, Before::Others, cause)?;
+        machine_frame::go(&mut post.control, &motion, before, cause)?;
     } else {
         post.control.ready_length()?;
         post.control.tables.check_travel(&position, axes)?;

@@ -57,6 +57,7 @@ mod turned_apart;
 mod turning;
 mod turning_feed;
 mod way;
+pub(crate) mod way_home;
 mod whole_thread;
 
 pub(crate) use named_frames::NamedFrames;

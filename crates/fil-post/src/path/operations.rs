@@ -2,7 +2,8 @@
 
 use super::{
     arc, compensation_side, counted_spindle, frame, frame_end, hole, index, linear,
-    machine_position, mill_turn, position, rotary, skip, tip_control, tool_change, whole_thread,
+    machine_position, mill_turn, position, rotary, skip, tip_control, tool_change, way_home,
+    whole_thread,
 };
 use crate::control::needs::Act;
 use crate::control::word_address::motion;
@@ -103,6 +104,11 @@ fn write_other(post: &mut Post, operation: Operation) -> Result<()> {
         Operation::Hole(target) => hole::carry_out(post, target),
         Operation::Thread(thread) => whole_thread::carry_out(post, &thread),
         Operation::ToolChange(change) => tool_change::change(post, change),
+        Operation::WorkOffset(number) => way_home::take_work_offset(post, number),
+        Operation::End(end) => {
+            way_home::before_end(post)?;
+            post.control.family().write(&mut post.control, Operation::End(end))
+        }
         other => post.control.family().write(&mut post.control, other),
     }
 }

@@ -7,7 +7,7 @@ use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations::{self as loc, ToolChangeBlock};
 use fil_machine::user_blocks::{self, AroundChange, UserBlocks};
 
-use super::{frame, frame_end, rapid, rapid_lean, tip_control, turned_apart};
+use super::{frame, frame_end, rapid, rapid_lean, tip_control, turned_apart, way_home};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::machine_frame::{self, Before};
@@ -49,7 +49,7 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     control.family().take_own_offset(control, &mut wanted)?;
     refuse_change_by_switch(control, wanted.tool)?;
     if !tool::prepare(control, &wanted)? {
-        return Ok(());
+        return way_home::write_messages(control);
     }
     turned_apart::warn_of_length(control);
     leave_part(post)?;
@@ -58,19 +58,41 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     frame::end(control)?;
     control.tape.align();
     let around = around(control, &wanted);
+    let is_first = control.tools.changes == 0;
     control.tools.changes += 1;
     control.tools.prepared = None;
+    control.tools.first.get_or_insert(wanted.tool);
     let cause = wanted.causes[0].whole();
     write_blocks(control, around[0])?;
-    control.because(cause, |control| go_to_change_position(control, cause))?;
+    control.because(cause, |control| {
+        if !is_first {
+            way_home::switch_off(control)?;
+        }
+        go_to_change_position(control, cause)?;
+        if is_first { Ok(()) } else { way_home::stop_at_change(control) }
+    })?;
+    way_home::write_messages(control)?;
     control.tip.is_away = true;
     control.family().change_tool(control, wanted)?;
     write_blocks(control, around[1])?;
-    match wanted.next {
-        NextTools::Some { other: Some(next) } if control.commons.read(loc::TOOL_PRESELECT) => {
-            control.family().write(control, Operation::SelectTool(next))
-        }
-        _ => Ok(()),
+    prepare_next(control, &wanted)?;
+    control.because(cause, way_home::restate)
+}
+
+/// Names the tool that comes next, behind the last change the first one where the machine wants it.
+fn prepare_next(control: &mut Control, wanted: &ToolChange) -> Result<()> {
+    let first = control
+        .tools
+        .first
+        .filter(|first| *first != wanted.tool && control.commons.read(loc::TOOL_PRESELECT_FIRST));
+    let next = match wanted.next {
+        NextTools::Some { other: Some(next) } => Some(next),
+        NextTools::Some { other: None } | NextTools::None => first,
+        NextTools::Unknown => None,
+    };
+    match next.filter(|_| control.commons.read(loc::TOOL_PRESELECT)) {
+        Some(next) => control.family().write(control, Operation::SelectTool(next)),
+        None => Ok(()),
     }
 }
 

@@ -8,8 +8,8 @@ use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{CountedSpindle, End, Operation, Spindle};
 use crate::path::sense::Verdict;
-use crate::path::thread;
 use crate::path::{Choice, carry_out};
+use crate::path::{thread, way_home};
 use crate::post::Post;
 
 /// END: end of the program without rewinding it.
@@ -51,6 +51,7 @@ pub fn finish(post: &mut Post, end: End) -> Result<()> {
         return PostCode::ArcEnd.err("no GOTO followed the last CIRCLE");
     }
     judge_arcs(post)?;
+    way_home::write_messages(&mut post.control)?;
     thread::end(post)?;
     post.path.cycle = None;
     leave_side_spindle(post)?;

@@ -19,5 +19,9 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if !post.control.commons.read(loc::MESSAGE_TO_TAPE) {
         return Ok(());
     }
+    if post.control.commons.read(loc::MESSAGE_WAITS) {
+        post.control.messages.push((text, post.control.block.cause.whole()));
+        return Ok(());
+    }
     carry_out(post, Operation::Message(text))
 }

@@ -73,6 +73,7 @@ impl Outside<'_, '_> {
                     - other_seconds
                     - motion.as_ref().map_or(0.0, Motion::dwell),
                 diameter: self.source.diameter(),
+                corner: self.source.corner(),
                 unit: self.post.unit(),
             };
             overview.count(record, self.post.control.tape.cause.record, &counted);

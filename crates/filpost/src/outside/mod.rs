@@ -14,7 +14,7 @@ use std::sync::Arc;
 use fil_cl::vocabulary::words;
 use fil_cl::{Evidence, Record, Vocabulary, record::kind};
 use fil_diag::Diag;
-use fil_machine::locations::{INPUT_CREO_RECORDS, PROGRAM_TIME_STAMP};
+use fil_machine::locations::{INPUT_CREO_RECORDS, PROGRAM_TIME_STAMP, PROGRAM_TOOL_LIST};
 use fil_machine::{Kind, Unit};
 use fil_vm::{Host, Module, SectionId};
 
@@ -103,14 +103,19 @@ pub(crate) struct Outside<'o, 'r> {
 impl<'o, 'r> Outside<'o, 'r> {
     /// Everything as it is before the first record.
     pub fn new(start: Start<'o>, records: Stream<'r>) -> Self {
-        let Start { program, cl_name, raw, units, cancel, observers, map, pass, debugger } = start;
+        let Start { program, cl_name, raw, units, cancel, observers, map, mut pass, debugger } =
+            start;
         let shared = &program.shared;
         let counts = !observers.is_empty() || !matches!(pass, Pass::Only);
         let module = Arc::clone(&shared.module);
+        let mut post = shared.prototype.clone();
+        if post.control.commons.read(PROGRAM_TOOL_LIST) {
+            post.control.head.tools = pass.tool_list();
+        }
         Outside {
-            source: Source::new(records, raw || !module.has_no_section()),
+            source: Source::new(records, raw || counts || !module.has_no_section()),
             module,
-            post: shared.prototype.clone(),
+            post,
             report: Report::default(),
             careful: raw || counts,
             tally: counts.then(Box::default),

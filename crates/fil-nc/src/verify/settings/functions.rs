@@ -1,7 +1,9 @@
 //! Codes and placements of spindle, coolant, stops and end.
 
 use fil_machine::commons::Rel;
-use fil_machine::locations::{self as loc, ControlFamily, FixtureForm, ThreadCycle};
+use fil_machine::locations::{
+    self as loc, ControlFamily, FixtureForm, ThreadCycle, ToolChangeStop,
+};
 use fil_machine::setting::CodeAt;
 use fil_machine::user_blocks;
 
@@ -138,6 +140,32 @@ impl Settings<'_> {
             at => at,
         };
         self.commons.read(at).or_else(|| self.commons.read(usual)).map(number)
+    }
+
+    /// The functions that end coolant and spindle before the way home, as blocks.
+    pub fn blocks_of_switching_off(&self) -> Vec<String> {
+        if !self.commons.read(loc::HOME_SWITCHES_OFF) {
+            return Vec::new();
+        }
+        let codes = [loc::COOLANT_OFF_CODE, loc::SPINDLE_STOP_CODE];
+        let codes = codes.into_iter().filter_map(|at| self.commons.read(at));
+        codes.map(|code| format!("M{code}")).collect()
+    }
+
+    /// The stop before each tool change but the first.
+    pub fn stop_at_change(&self) -> Option<u32> {
+        match self.commons.read(loc::TOOL_CHANGE_STOP) {
+            ToolChangeStop::None => None,
+            ToolChangeStop::OptionalStop => self.stop_code(true),
+            ToolChangeStop::Stop => self.stop_code(false),
+        }
+    }
+
+    /// The work offset that the first tool change chooses where no record has named one; `None`
+    /// where no change says any.
+    pub fn first_work_offset(&self) -> Option<u32> {
+        let first = self.commons.int_opt(loc::FIXTURE_FIRST)?;
+        self.work_offset(Some(f64::from(first)))
     }
 
     /// The work offset of SET/OFSETL as programs name it (see

@@ -3,7 +3,8 @@
 use fil_machine::axis_chain::Carries;
 use fil_machine::commons::Dbl;
 use fil_machine::locations::{
-    self as loc, CircleCorrection, FeedInverseLength, HomeFrame, LinearMethod, RotaryTipForm,
+    self as loc, CircleCorrection, FeedInverseLength, HomeFrame, LinearMethod, ProgramEndBlock,
+    RotaryTipForm,
 };
 use nalgebra::Point3;
 
@@ -70,7 +71,7 @@ impl Settings<'_> {
 
     /// Home, retract and change positions are coordinates of the machine.
     pub fn names_machine_positions(&self) -> bool {
-        self.commons.read(loc::HOME_FRAME) == HomeFrame::OfTheMachine
+        self.commons.read(loc::HOME_FRAME) != HomeFrame::OfThePart
     }
 
     /// X, Y, Z of the home position, mm.
@@ -81,6 +82,21 @@ impl Settings<'_> {
     /// Z that RETRCT goes up to, mm.
     pub fn retract_level(&self, metric: bool) -> Option<f64> {
         self.commons.dbl_opt(loc::HOME_RETRACT_Z).map(|value| value * unit(metric))
+    }
+
+    /// The axes that go home before the end of the program, mm; `None` for each that stays.
+    pub fn home_at_end(&self, metric: bool) -> [Option<f64>; 3] {
+        let [x, y, z] = self.home(metric);
+        match self.commons.read(loc::PROGRAM_END_BLOCK) {
+            ProgramEndBlock::None => [None; 3],
+            ProgramEndBlock::Z => [None, None, z],
+            ProgramEndBlock::ZThenXAndY => [x, y, z],
+        }
+    }
+
+    /// The tool goes up before another work offset.
+    pub fn goes_up_for_offsets(&self) -> bool {
+        self.commons.read(loc::FIXTURE_CHANGE_BLOCK)
     }
 
     /// Inverse time within the machine's limits, motions a minute.

@@ -1,0 +1,135 @@
+//! What a machine does by its settings at the end of a tool, of a work offset and of the program:
+//! coolant and spindle off, and the way to its home position.
+
+use fil_diag::Result;
+use fil_machine::locations::{self as loc, ProgramEndBlock, ToolChangeStop};
+
+use super::{height, machine_position};
+use crate::control::machine_frame::Before;
+use crate::control::word_address::{cycle, spindle};
+use crate::control::{Control, program};
+use crate::control_state::{Source, modal};
+use crate::operation::{Coolant, Operation, Spindle, Stop};
+use crate::post::Post;
+
+/// Ends coolant and spindle where they are on and the machine does so before it goes home.
+///
+/// # Errors
+/// The machine has no codes for it.
+pub(super) fn switch_off(control: &mut Control) -> Result<()> {
+    if !control.commons.read(loc::HOME_SWITCHES_OFF) {
+        return Ok(());
+    }
+    if control.coolant.is_some() {
+        control.family().write(control, Operation::Coolant(Coolant::Off))?;
+    }
+    if spindle::may_turn(control) {
+        control.family().write(control, Operation::Spindle(Spindle::Off))?;
+    }
+    Ok(())
+}
+
+/// Stops at the tool change position, as the machine asks for it.
+///
+/// # Errors
+/// The machine has no code for the stop.
+pub(super) fn stop_at_change(control: &mut Control) -> Result<()> {
+    let stop = match control.commons.read(loc::TOOL_CHANGE_STOP) {
+        ToolChangeStop::None => return Ok(()),
+        ToolChangeStop::OptionalStop => Stop::Optional,
+        ToolChangeStop::Stop => Stop::Always,
+    };
+    control.family().write(control, Operation::Stop(stop))
+}
+
+/// Writes the messages that have waited for a tool change, or for what has come instead of it.
+///
+/// # Errors
+/// As a line on the tape.
+pub(crate) fn write_messages(control: &mut Control) -> Result<()> {
+    for (text, cause) in std::mem::take(&mut control.messages) {
+        control
+            .because(cause, |control| control.family().write(control, Operation::Message(text)))?;
+    }
+    Ok(())
+}
+
+/// Says modes and work offset again behind a tool change, so that the program can be begun there.
+///
+/// # Errors
+/// A work offset that the machine lacks.
+pub(super) fn restate(control: &mut Control) -> Result<()> {
+    if control.commons.read(loc::TOOL_CHANGE_MODES) {
+        program::say_modes_again(control)?;
+    }
+    match work_offset_in_force(control) {
+        Some(number) if control.commons.int_opt(loc::FIXTURE_FIRST).is_some() => {
+            control.family().write(control, Operation::WorkOffset(number))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The work offset that was named last, or the first one of the machine.
+fn work_offset_in_force(control: &Control) -> Option<Option<i64>> {
+    let first = control.commons.int_opt(loc::FIXTURE_FIRST).map(|first| Some(i64::from(first)));
+    control.tools.work_offset.or(first)
+}
+
+/// Takes a work offset; before another one the tool goes up, where the machine asks for it. The
+/// one that a tool change has just said again is not said twice.
+///
+/// # Errors
+/// As the way up, and as a work offset.
+pub(super) fn take_work_offset(post: &mut Post, number: Option<i64>) -> Result<()> {
+    let control = &post.control;
+    let is_other = work_offset_in_force(control) != Some(number);
+    let restates = control.commons.int_opt(loc::FIXTURE_FIRST).is_some();
+    if is_other && control.commons.read(loc::FIXTURE_CHANGE_BLOCK) && control.stands(2).is_some() {
+        go_up(post)?;
+    }
+    let control = &mut post.control;
+    control.tools.work_offset = Some(number);
+    if restates && !is_other && control.state.get(modal::WORK_OFFSET).is_some() {
+        return Ok(());
+    }
+    control.family().write(control, Operation::WorkOffset(number))
+}
+
+/// Goes up to the level of RETRCT; the next motion says its function again, so that the program can
+/// be begun there.
+fn go_up(post: &mut Post) -> Result<()> {
+    match post.control.commons.dbl_opt(loc::HOME_RETRACT_Z) {
+        Some(level) if !height::is_above(&post.control, level)? => {
+            machine_position::carry_out(post, [None, None, Some(level)])?;
+            post.control.state.forget(modal::MOTION, Source::Post);
+            Ok(())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Ends coolant and spindle and goes home before the program ends.
+///
+/// # Errors
+/// Cutter compensation that is on, and all that the motion refuses.
+pub(super) fn before_end(post: &mut Post) -> Result<()> {
+    let control = &mut post.control;
+    let block = control.commons.read(loc::PROGRAM_END_BLOCK);
+    let is_asked = control.commons.read(loc::HOME_SWITCHES_OFF) || block != ProgramEndBlock::None;
+    if !is_asked || control.state.may_be(modal::PROGRAM_END, true) {
+        return Ok(());
+    }
+    control.begin()?;
+    cycle::cancel(control)?;
+    control.skip_blocks(false)?;
+    control.flush_waiting()?;
+    switch_off(control)?;
+    let home = loc::HOME.map(|at| control.commons.dbl_opt(at));
+    let to = match block {
+        ProgramEndBlock::None => return Ok(()),
+        ProgramEndBlock::Z => [None, None, home[2]],
+        ProgramEndBlock::ZThenXAndY => home,
+    };
+    machine_position::carry_out_before(post, to, Before::End)
+}
