@@ -61,6 +61,8 @@ pub struct Vocabulary {
     slots: Vec<u32>,
     /// Codes of our own, to find a free one and to get back to the word.
     own_codes: HashMap<u64, WordId>,
+    /// The word of each published code, as [`Vocabulary::minor_with_code`] gives it.
+    public_codes: HashMap<u64, WordId>,
 }
 
 impl Default for Vocabulary {
@@ -82,6 +84,7 @@ impl Vocabulary {
             entries: Vec::with_capacity(FIRST_SLOTS / 2),
             slots: vec![FREE; FIRST_SLOTS],
             own_codes: HashMap::new(),
+            public_codes: HashMap::new(),
         };
         for (name, class) in words::NAMES_AND_CLASSES {
             let id = vocabulary.insert(Cow::Borrowed(name), hash(name.as_bytes()), *class);
@@ -93,6 +96,13 @@ impl Vocabulary {
         for index in 0..words::NAMES_AND_CLASSES.len() {
             if !vocabulary.entries[index].public {
                 vocabulary.give_own_code(WordId(index as u32));
+            }
+        }
+        // The first word stays, and a minor one.
+        for class in [MAJOR, MINOR] {
+            let entries = vocabulary.entries.iter().enumerate().rev();
+            for (index, entry) in entries.filter(|(_, e)| e.public && e.class & class != 0) {
+                vocabulary.public_codes.insert(entry.code as u64, WordId(index as u32));
             }
         }
         vocabulary
@@ -183,16 +193,22 @@ impl Vocabulary {
     /// with the code a minor word is taken before a major one, and a word of
     /// [`words`] before another.
     pub fn minor_with_code(&self, code: f64) -> Option<WordId> {
-        if code >= OWN_CODES as f64 {
-            if code.fract() != 0.0 {
-                return None;
-            }
-            return self.own_codes.get(&(code as u64)).copied();
+        if code < 0.0 || code.fract() != 0.0 {
+            return None;
         }
+        let codes = if code >= OWN_CODES as f64 { &self.own_codes } else { &self.public_codes };
+        codes.get(&(code as u64)).copied()
+    }
+
+    /// Notes which word a published code stands for, once the words have changed.
+    fn find_public(&mut self, code: f64) {
         let with_class = |class: u8| {
             self.entries.iter().position(|e| e.public && e.code == code && e.class & class != 0)
         };
-        with_class(MINOR).or_else(|| with_class(MAJOR)).map(|index| WordId(index as u32))
+        match with_class(MINOR).or_else(|| with_class(MAJOR)) {
+            Some(index) => self.public_codes.insert(code as u64, WordId(index as u32)),
+            None => self.public_codes.remove(&(code as u64)),
+        };
     }
 
     /// Gives a word the code that the CL file names for it. A word of the published tables that
@@ -207,7 +223,10 @@ impl Vocabulary {
             self.give_own_code(WordId(other as u32));
         }
         let entry = &mut self.entries[id.index()];
+        let before = entry.code;
         (entry.code, entry.public, entry.of_file) = (code, true, true);
+        self.find_public(before);
+        self.find_public(code);
     }
 
     /// Number of words.

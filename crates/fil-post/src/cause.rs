@@ -64,12 +64,16 @@ pub struct Stack {
 /// those the innermost line alone is kept, so that memory stays bounded.
 const MOST: usize = 1 << 16;
 
+/// Stacks that are looked at first.
+const LATEST: usize = 8;
+
 /// The FIL call stacks of a run, each once. Stack 0 is the empty one.
 #[derive(Clone, Debug, Default)]
 pub struct Stacks {
     stacks: Vec<Stack>,
     numbers: HashMap<Vec<FilLine>, u32>,
-    last: u32,
+    /// The numbers that were asked for last: a section comes back to its few stacks.
+    latest: [u32; LATEST],
 }
 
 impl Stacks {
@@ -81,19 +85,22 @@ impl Stacks {
         section: Option<u16>,
         lines: impl Iterator<Item = FilLine> + Clone,
     ) -> u32 {
-        if lines.clone().eq(self.lines(self.last).iter().copied()) {
-            return self.last;
+        let is_it = |number: &u32| lines.clone().eq(self.lines(*number).iter().copied());
+        if let Some(number) = self.latest.iter().copied().find(is_it) {
+            return number;
         }
         let mut lines: Vec<FilLine> = lines.collect();
         if self.stacks.len() >= MOST {
             lines.truncate(1);
         }
-        self.last = match self.numbers.get(&lines) {
+        let number = match self.numbers.get(&lines) {
             _ if lines.is_empty() => 0,
             Some(number) => *number,
             None => self.add(Stack { section, lines }),
         };
-        self.last
+        self.latest.rotate_right(1);
+        self.latest[0] = number;
+        number
     }
 
     /// The lines of a stack, innermost first.

@@ -209,7 +209,7 @@ impl<'o, 'r> Engine<'o, 'r> {
             }
         }
         if !self.outside.read(&mut self.record, &mut self.vocabulary)? {
-            self.outside.end_of_file()?;
+            self.outside.end_of_file(&self.vocabulary)?;
             return Ok(false);
         }
         self.watch_progress()?;

@@ -52,7 +52,7 @@ impl Engine<'_, '_> {
         match self.outside.read(&mut self.record, &mut self.vocabulary) {
             Ok(true) => {}
             Ok(false) => {
-                if let Some(diag) = survey.ended(self.outside.end_of_file().err()) {
+                if let Some(diag) = survey.ended(self.outside.end_of_file(&self.vocabulary).err()) {
                     survey.refusals.add(*diag);
                 }
                 return Ok(false);

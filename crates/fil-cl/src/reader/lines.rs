@@ -196,14 +196,29 @@ impl<'r> Lines<'r> {
         matches!(self.input, Input::File(_))
     }
 
-    /// Goes to an offset in the input, where line `line` begins, and forgets the buffer.
+    /// Goes to an offset in the input, where line `line` begins.
     pub(super) fn go_to(&mut self, offset: u64, line: u32) -> io::Result<()> {
-        if let Input::File(input) = &mut self.input {
-            input.seek(SeekFrom::Start(offset))?;
+        (self.line, self.is_open) = (line, false);
+        if !(self.base..=self.base + self.end as u64).contains(&offset) {
+            self.forget(offset)?;
         }
-        (self.end, self.mark, self.next) = (0, 0, 0);
-        (self.base, self.line, self.at_end, self.is_open) = (offset, line, false, false);
+        let at = (offset - self.base) as usize;
+        (self.mark, self.next) = (0, 0);
+        self.fill_to(at)?;
+        self.next = at.min(self.end);
+        self.mark = self.next;
         Ok(())
+    }
+
+    /// Forgets the buffer. What comes before the offset is read again with it, since who goes
+    /// back once goes further.
+    fn forget(&mut self, offset: u64) -> io::Result<()> {
+        self.base = offset.saturating_sub(CHUNK as u64 / 2);
+        (self.end, self.mark, self.next, self.at_end) = (0, 0, 0, false);
+        match &mut self.input {
+            Input::File(input) => input.seek(SeekFrom::Start(self.base)).map(|_| ()),
+            Input::Stream(_) => Ok(()),
+        }
     }
 
     /// Reads on, moving what is still needed to the front or growing the buffer.

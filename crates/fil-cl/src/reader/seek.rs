@@ -1,5 +1,7 @@
-//! Going back in a file, with sparse checkpoints.
+//! Going back in a file: sparse checkpoints from its start on, and close ones around the place
+//! where a script looks back.
 
+use std::collections::VecDeque;
 use std::io::{Read, Seek};
 
 use fil_diag::{Diag, TextSpan};
@@ -15,6 +17,12 @@ const SPACING: u32 = 4096;
 /// spacing doubles, so that memory does not grow with the file.
 const MAX_CHECKPOINTS: usize = 1024;
 
+/// Records between two close checkpoints.
+const CLOSE: u32 = 8;
+
+/// No more close checkpoints than this are kept: the oldest ones go.
+const MAX_CLOSE: usize = 512;
+
 /// The state of the reader between two statements.
 #[derive(Clone, Copy, Debug)]
 struct Checkpoint {
@@ -28,9 +36,12 @@ struct Checkpoint {
 /// What a reader needs to go back.
 pub(super) struct Seeking {
     checkpoints: Vec<Checkpoint>,
+    spacing: u32,
+    /// Checkpoints around the place that was gone back to last; `None` as long as nobody
+    /// has gone back.
+    close: Option<VecDeque<Checkpoint>>,
     /// Number of the first record that is due a checkpoint; none of a stream is.
     due: u32,
-    spacing: u32,
     /// Number of the record to read on to; 0 when it is the next one.
     pub(super) target: u32,
 }
@@ -38,7 +49,7 @@ pub(super) struct Seeking {
 impl Seeking {
     pub(super) fn new(can_go_back: bool) -> Self {
         let due = if can_go_back { 0 } else { u32::MAX };
-        Seeking { checkpoints: Vec::new(), due, spacing: SPACING, target: 0 }
+        Seeking { checkpoints: Vec::new(), spacing: SPACING, close: None, due, target: 0 }
     }
 
     /// True when the state after record `number` is worth a checkpoint.
@@ -49,6 +60,22 @@ impl Seeking {
 
     /// Keeps a checkpoint.
     pub(super) fn keep(&mut self, number: u32, offset: u64, line: u32, modal: Modal) {
+        let point = Checkpoint { number, offset, line, modal };
+        if number >= self.sparse_due() {
+            self.keep_sparse(point);
+        }
+        if number >= self.close_due().unwrap_or(u32::MAX)
+            && let Some(close) = &mut self.close
+        {
+            if close.len() == MAX_CLOSE {
+                close.pop_front();
+            }
+            close.push_back(point);
+        }
+        self.find_due();
+    }
+
+    fn keep_sparse(&mut self, point: Checkpoint) {
         if self.checkpoints.len() == MAX_CHECKPOINTS {
             let mut kept = false;
             self.checkpoints.retain(|_| {
@@ -57,8 +84,48 @@ impl Seeking {
             });
             self.spacing = self.spacing.saturating_mul(2);
         }
-        self.checkpoints.push(Checkpoint { number, offset, line, modal });
-        self.due = number.saturating_add(self.spacing);
+        self.checkpoints.push(point);
+    }
+
+    fn sparse_due(&self) -> u32 {
+        let last = self.checkpoints.last();
+        last.map_or(0, |point| point.number.saturating_add(self.spacing))
+    }
+
+    /// `None` where no close ones are kept.
+    fn close_due(&self) -> Option<u32> {
+        let close = self.close.as_ref()?;
+        Some(close.back().map_or(0, |point| point.number.saturating_add(CLOSE)))
+    }
+
+    fn find_due(&mut self) {
+        let sparse = self.sparse_due();
+        self.due = self.close_due().map_or(sparse, |close| close.min(sparse));
+    }
+
+    /// The last checkpoint before record `n`.
+    fn before(&self, n: u32) -> Option<Checkpoint> {
+        let sparse = self.checkpoints.partition_point(|point| point.number < n);
+        let sparse = sparse.checked_sub(1).map(|at| self.checkpoints[at]);
+        let close = self.close.as_ref().and_then(|close| {
+            close.partition_point(|point| point.number < n).checked_sub(1).map(|at| close[at])
+        });
+        if close.map(|point| point.number) > sparse.map(|point| point.number) {
+            close
+        } else {
+            sparse
+        }
+    }
+
+    /// Keeps close checkpoints from now on, without those that lie elsewhere.
+    fn goes_back_to(&mut self, point: &Checkpoint) {
+        let close = self.close.get_or_insert_default();
+        let first = close.front().map_or(u32::MAX, |first| first.number);
+        let last = close.back().map_or(0, |last| last.number.saturating_add(CLOSE));
+        if !(first..=last).contains(&point.number) {
+            close.clear();
+        }
+        self.find_due();
     }
 }
 
@@ -95,13 +162,11 @@ impl Reader<'_> {
         }
         self.seeking.target = n;
         self.at_line = false;
-        let before = self.seeking.checkpoints.partition_point(|point| point.number < n);
-        let Some(point) = before.checked_sub(1).map(|at| self.seeking.checkpoints[at]) else {
-            return Ok(());
-        };
+        let Some(point) = self.seeking.before(n) else { return Ok(()) };
         if self.failed.is_none() && (point.number..n).contains(&self.number) {
             return Ok(());
         }
+        self.seeking.goes_back_to(&point);
         if let Err(error) = self.lines.go_to(point.offset, point.line) {
             return Err(self.read_failed(&error));
         }
@@ -130,9 +195,37 @@ mod tests {
             seeking.keep(number, u64::from(number), number, Modal::default());
             assert!(seeking.checkpoints.len() <= MAX_CHECKPOINTS);
         }
+        assert!(seeking.close.is_none());
         let numbers: Vec<u32> = seeking.checkpoints.iter().map(|point| point.number).collect();
         assert_eq!(numbers[0], 0);
         assert!(numbers.len() >= MAX_CHECKPOINTS / 2);
         assert!(numbers.windows(2).all(|pair| pair[1] - pair[0] <= seeking.spacing));
+    }
+
+    /// Reads on from one record to another, as a reader does.
+    fn read_on(seeking: &mut Seeking, from: u32, to: u32) {
+        for number in from..to {
+            if seeking.is_due(number) {
+                seeking.keep(number, u64::from(number), number, Modal::default());
+            }
+        }
+    }
+
+    #[test]
+    fn close_checkpoints_follow_the_place_that_was_gone_back_to() {
+        let mut seeking = Seeking::new(true);
+        read_on(&mut seeking, 0, 100_000);
+        let before = |seeking: &Seeking, n| seeking.before(n).expect("a checkpoint").number;
+        assert!(50_000 - before(&seeking, 50_000) > CLOSE);
+        for place in [50_000, 49_999, 49_000, 90_000] {
+            let point = seeking.before(place).expect("a checkpoint");
+            seeking.goes_back_to(&point);
+            read_on(&mut seeking, point.number, place);
+            assert!(place - before(&seeking, place) <= CLOSE, "{place}");
+        }
+        let close = seeking.close.as_ref().expect("close ones");
+        assert!(close.len() <= MAX_CLOSE);
+        let numbers: Vec<u32> = close.iter().map(|point| point.number).collect();
+        assert!(numbers.is_sorted());
     }
 }

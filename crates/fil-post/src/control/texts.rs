@@ -1,5 +1,7 @@
 //! Texts that others put on the tape: what must never get there.
 
+use std::borrow::Cow;
+
 use fil_diag::Result;
 use fil_machine::locations as loc;
 
@@ -27,9 +29,12 @@ impl MessageMarks {
         [self.open, self.close.unwrap_or(self.open)]
     }
 
-    /// A message between them.
-    pub fn enclose(self, text: &str) -> String {
-        let mut message = format!("{}{text}", self.open);
+    /// A message between them, behind it the mark of one that goes on.
+    pub fn enclose(self, text: &str, goes_on: Option<char>) -> String {
+        let mut message = String::with_capacity(text.len() + 12);
+        message.push(self.open);
+        message.push_str(text);
+        message.extend(goes_on);
         message.extend(self.close);
         message
     }
@@ -65,15 +70,24 @@ pub fn check(text: &str) -> Result<()> {
 /// A message without what must not reach the tape: the characters that enclose it,
 /// `%`, what ends each block (`end`) and control characters become blanks. Says whether any did
 /// besides the enclosing ones.
-pub fn clean_message(text: &str, marks: [char; 2], end: Option<char>) -> (String, bool) {
+pub fn clean_message(text: &str, marks: [char; 2], end: Option<char>) -> (Cow<'_, str>, bool) {
+    let is_harmful = |c: char| c == '%' || Some(c) == end || c.is_control();
+    if !text.chars().any(|c| marks.contains(&c) || is_harmful(c)) {
+        return (Cow::Borrowed(text), false);
+    }
     let mut changed = false;
     let clean = text.chars().filter(|c| !marks.contains(c)).map(|c| {
-        let harmful = c == '%' || Some(c) == end || c.is_control();
-        changed |= harmful;
-        if harmful { ' ' } else { c }
+        changed |= is_harmful(c);
+        if is_harmful(c) { ' ' } else { c }
     });
-    let clean = clean.collect();
-    (clean, changed)
+    let clean: String = clean.collect();
+    (Cow::Owned(clean), changed)
+}
+
+/// The first part of a message of at most `longest` characters, and the rest.
+pub fn split_message(text: &str, longest: usize) -> (&str, &str) {
+    let end = text.char_indices().nth(longest).map_or(text.len(), |(at, _)| at);
+    text.split_at(end)
 }
 
 /// A text without its blanks, but for those in comments and in quoted texts.

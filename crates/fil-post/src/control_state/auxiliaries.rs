@@ -24,7 +24,11 @@ impl ControlState {
 
     /// Learns what an auxiliary function does. A call of a subprogram may do anything.
     pub fn learn_auxiliary(&mut self, code: FunctionCode, codes: &Codes, source: Source) {
-        let does = |meaning| codes.does(code, meaning);
+        let meanings: Vec<Meaning> = codes.auxiliaries(code).map(|row| row.meaning).collect();
+        if meanings.is_empty() {
+            return;
+        }
+        let does = |meaning| meanings.contains(&meaning);
         if does(Meaning::ProgramEnd(ProgramEnd::Program)) {
             self.set(PROGRAM_END, true);
         }
@@ -51,7 +55,7 @@ impl ControlState {
             self.set(SPINDLE, Rotation::Standing);
             self.set(TOOL_CHANGED, true);
         }
-        if codes.calls_program(code) {
+        if meanings.iter().any(|meaning| matches!(meaning, Meaning::Call(_))) {
             self.doubt_all(source);
         }
     }

@@ -68,6 +68,8 @@ impl Codes {
         let changes = said.iter().filter(|(_, effect)| *effect == Effect::ToolChange);
         auxiliary
             .extend(changes.zip(change.into_iter().cycle()).map(|((code, _), row)| (*code, row)));
+        // By code, and those of one code in the order of the table.
+        auxiliary.sort_by_key(|(code, _)| *code);
         Codes {
             auxiliary,
             said: said.into_iter().map(|(code, _)| code).collect(),
@@ -117,7 +119,8 @@ impl Codes {
         let standard = functions::standard(self.dialect, Space::M, code);
         let standard = standard.filter(|row| row.settings.is_empty() || !is_named(row));
         let standard = standard.filter(|_| !self.said.contains(&code));
-        let named = self.auxiliary.iter().filter(move |(named, _)| *named == code);
+        let first = self.auxiliary.partition_point(|(named, _)| *named < code);
+        let named = self.auxiliary[first..].iter().take_while(move |(named, _)| *named == code);
         named.map(|(_, row)| *row).chain(standard)
     }
 

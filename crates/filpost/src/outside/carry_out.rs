@@ -10,7 +10,6 @@ use crate::cancel::CancelToken;
 use crate::event::Event;
 use crate::overview::Counted;
 use crate::report::Extents;
-use crate::statement::statement_text;
 use crate::tally::{Before, Motion};
 use crate::units::UnitSource;
 
@@ -97,7 +96,7 @@ impl Outside<'_, '_> {
         let author_blocks = self.post.control.warnings.author_blocks;
         let mut result = self.post.begin(record, vocabulary);
         if self.post.control.warnings.author_blocks != author_blocks && record.line != 0 {
-            self.author_statement = (record.line, statement_text(record, vocabulary));
+            self.of_author.clone_from(record);
         }
         if result.is_ok() && self.post.has_more() {
             result = self.go_on();
@@ -107,12 +106,12 @@ impl Outside<'_, '_> {
         }
         if result.is_err() || !self.post.control.warnings.is_empty() {
             let place = self.place(record, vocabulary);
-            self.take_warnings(Some(&place));
+            self.take_warnings(Some(&place), vocabulary);
             // The machine itself adds the FIL line to an error.
             let made_by_fil = self.fil_line(record).is_some();
             let result = result.map_err(|diag| self.name_dialects(diag));
             let author = self.post.control.warnings.denied.take();
-            let author = author.map(|author| self.place_of_author(author));
+            let author = author.map(|author| self.place_of_author(author, vocabulary));
             result.map_err(|mut diag| {
                 if !made_by_fil {
                     diag.spans.push(place);

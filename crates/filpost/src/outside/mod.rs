@@ -94,8 +94,8 @@ pub(crate) struct Outside<'o, 'r> {
     pub debugger: Option<SharedDebugger>,
     /// A warning whose level is deny.
     pub denied: Option<Box<Diag>>,
-    /// The last statement of the CL file whose blocks are its author's: line and text.
-    author_statement: (u32, String),
+    /// The last statement of the CL file whose blocks are its author's.
+    of_author: Record,
     /// The debugger knows of the error that ends the run.
     pub told_failure: bool,
 }
@@ -140,7 +140,7 @@ impl<'o, 'r> Outside<'o, 'r> {
             spilled: None,
             debugger,
             denied: None,
-            author_statement: (0, String::new()),
+            of_author: Record::default(),
             told_failure: false,
             program,
         }

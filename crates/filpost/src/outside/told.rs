@@ -20,16 +20,16 @@ use crate::statement::statement_text;
 impl Outside<'_, '_> {
     /// Tells the warnings of the post, which came at this place; one of a doubt stands at the
     /// line of the author that left it.
-    pub(super) fn take_warnings(&mut self, place: Option<&TextSpan>) {
+    pub(super) fn take_warnings(&mut self, place: Option<&TextSpan>, vocabulary: &Vocabulary) {
         for Warning { mut diag, author } in self.post.control.warnings.take() {
-            diag.spans.extend(author.map(|author| self.place_of_author(author)));
+            diag.spans.extend(author.map(|author| self.place_of_author(author, vocabulary)));
             diag.spans.extend(place.cloned());
             self.tell(diag);
         }
     }
 
     /// Where an author wrote a block: the line of FIL, or of the CL file.
-    pub(super) fn place_of_author(&self, author: Cause) -> TextSpan {
+    pub(super) fn place_of_author(&self, author: Cause, vocabulary: &Vocabulary) -> TextSpan {
         let fil = self.post.control.tape.stacks.lines(author.stack).first();
         match fil {
             Some(made) => {
@@ -38,8 +38,9 @@ impl Outside<'_, '_> {
                 TextSpan::line(&file.name, made.line, text.unwrap_or_default())
             }
             None => {
-                let (line, text) = &self.author_statement;
-                let text = if *line == author.line { text } else { "" };
+                let is_it = self.of_author.line == author.line;
+                let text =
+                    if is_it { statement_text(&self.of_author, vocabulary) } else { String::new() };
                 TextSpan::line(&self.cl_name, author.line, text)
             }
         }
@@ -148,7 +149,7 @@ impl Outside<'_, '_> {
     ///
     /// # Errors
     /// A record that waits for its continuation.
-    pub fn end_of_file(&mut self) -> Result<(), Box<Diag>> {
+    pub fn end_of_file(&mut self, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
         self.warn_of_other_signs();
         if self.source.records == 0 {
             self.tell(*RunCode::NoMotion.diag(format!("{} holds no record", self.cl_name)));
@@ -158,7 +159,7 @@ impl Outside<'_, '_> {
             self.tell(*RunCode::NoFini.diag(format!("{} has no FINI", self.cl_name)));
         }
         let result = self.post.finish();
-        self.take_warnings(None);
+        self.take_warnings(None, vocabulary);
         result.map_err(|diag| self.name_dialects(diag))
     }
 

@@ -7,7 +7,7 @@ use fil_machine::locations::{self as loc, SeqnoOnText};
 
 use super::modes::{self, Own};
 use crate::control::Control;
-use crate::control::texts::{MessageMarks, clean_message};
+use crate::control::texts::{MessageMarks, clean_message, split_message};
 use crate::control_state::{ForeignBlock, Meaning, functions, modal};
 use crate::errors::PostCode;
 
@@ -79,15 +79,17 @@ pub fn message(control: &mut Control, text: &str) -> Result<()> {
             format!("characters that must not reach the tape in `{}`", text.escape_debug());
         control.warnings.add(PostCode::IgnoredPart, message);
     }
-    let clean: Vec<char> = control.in_tape_characters(&clean).chars().collect();
+    let clean = control.in_tape_characters(&clean);
     let goes_on = control.commons.read(loc::TAPE_CONTINUATION_CHAR).filter(|_| longest > 1);
-    let mut rest = clean.as_slice();
+    let mut rest = &*clean;
     while !rest.is_empty() {
+        let (mut part, mut left) = split_message(rest, longest);
         // The mark of a message that goes on is one of its characters.
-        let mark = goes_on.filter(|_| rest.len() > longest);
-        let (part, left) = rest.split_at(rest.len().min(longest - usize::from(mark.is_some())));
-        let part: String = part.iter().copied().chain(mark).collect();
-        control.write_comment(&marks.enclose(&part), numbered)?;
+        let mark = goes_on.filter(|_| !left.is_empty());
+        if mark.is_some() {
+            (part, left) = split_message(rest, longest - 1);
+        }
+        control.write_comment(&marks.enclose(part, mark), numbered)?;
         rest = left;
     }
     Ok(())
