@@ -9,8 +9,10 @@ use fil_diag::{Levels, Result};
 use crate::effects::{Effect, Effects};
 use crate::errors::MachineCode;
 use crate::letter::Letter;
+use crate::locations::INPUT_TRANSLATE;
 use crate::post_options::PostOptions;
 use crate::setting::Setting;
+use crate::stored;
 
 /// An absent integer (shown as NA in reports).
 pub const NA: i32 = -32767;
@@ -71,6 +73,9 @@ pub struct Rel(pub u16);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dbl(pub u16);
 
+/// What a change of a setting adds to the generation; a shift of the points adds one.
+const OF_SETTINGS: u64 = 1 << 32;
+
 /// The three commons and a generation number that grows with each change of
 /// a setting, so that tables derived from them know when they are stale.
 #[derive(Clone, Debug)]
@@ -78,7 +83,7 @@ pub struct Commons {
     int: Vec<i32>,
     rel: Vec<f64>,
     dbl: Vec<f64>,
-    generation: u32,
+    generation: u64,
     /// Major words whose records the machine passes over.
     without_effect: Vec<String>,
     /// Work offsets that a program may choose where no CL file asks for one.
@@ -184,7 +189,7 @@ impl Commons {
 
     /// Adds a rule of `[effects]`; false for a text that names no block.
     pub fn add_effect(&mut self, said: &str, effect: Effect) -> bool {
-        self.generation = self.generation.wrapping_add(1);
+        self.generation = self.generation.wrapping_add(OF_SETTINGS);
         self.effects.add(said, effect)
     }
 
@@ -215,8 +220,13 @@ impl Commons {
     }
 
     /// Generation of the settings; the last output values do not count.
-    pub fn generation(&self) -> u32 {
+    pub fn generation(&self) -> u64 {
         self.generation
+    }
+
+    /// True if nothing but the shift of the points (TRANS) has changed since a generation.
+    pub fn is_only_shifted_since(&self, generation: u64) -> bool {
+        self.generation / OF_SETTINGS == generation / OF_SETTINGS
     }
 
     /// Last output value of a letter; [`EMPTY`] when unknown.
@@ -256,16 +266,30 @@ impl Commons {
             return MachineCode::CommonValue
                 .err(format!("{} {location} can't hold a value that is not finite", kind.name()));
         }
-        match kind {
-            Kind::Int => self.int[at] = integer(location, value)?,
-            Kind::Rel => self.rel[at] = value,
-            Kind::Dbl => self.dbl[at] = value,
-        }
-        let last_output = kind == Kind::Dbl && (LAST_OUTPUT + 1..=LAST_OUTPUT + 26).contains(&at);
-        if !last_output {
-            self.generation = self.generation.wrapping_add(1);
+        let is_other = match kind {
+            Kind::Int => {
+                let value = integer(location, value)?;
+                value != std::mem::replace(&mut self.int[at], value)
+            }
+            Kind::Rel => value != std::mem::replace(&mut self.rel[at], value),
+            Kind::Dbl => value != std::mem::replace(&mut self.dbl[at], value),
+        };
+        if is_other {
+            self.generation = self.generation.wrapping_add(weight(kind, location));
         }
         Ok(())
+    }
+}
+
+/// What a change of a location adds to the generation.
+fn weight(kind: Kind, location: u32) -> u64 {
+    let last_outputs = LAST_OUTPUT as u32 + 1..=LAST_OUTPUT as u32 + 26;
+    let shifts = INPUT_TRANSLATE.map(|shift| u32::from(shift.0));
+    match kind {
+        Kind::Dbl if last_outputs.contains(&location) => 0,
+        Kind::Dbl if shifts.contains(&location) => 1,
+        _ if stored::acts(kind, location) => OF_SETTINGS,
+        _ => 0,
     }
 }
 
@@ -343,7 +367,13 @@ mod tests {
         let mut commons = Commons::absent();
         commons.set(Kind::Dbl, 379, 5.0).unwrap();
         assert_eq!((commons.generation(), commons.last_output(Letter::of(b'X'))), (0, 5.0));
+        let [shift, ..] = INPUT_TRANSLATE.map(|shift| u32::from(shift.0));
+        commons.set(Kind::Dbl, shift, 5.0).unwrap();
+        assert!(commons.generation() > 0 && commons.is_only_shifted_since(0));
+        let shifted = commons.generation();
+        commons.set(Kind::Dbl, shift, 5.0).unwrap();
+        assert_eq!(commons.generation(), shifted);
         commons.set(Kind::Dbl, 486, 2.0).unwrap();
-        assert_eq!(commons.generation(), 1);
+        assert!(!commons.is_only_shifted_since(shifted));
     }
 }

@@ -82,7 +82,7 @@ pub struct MachineTables {
     input_shift: Vector3<f64>,
     /// Where the control has its zero, X Y Z, mm or inch.
     zero: [f64; 3],
-    made_for: Option<(u32, bool)>,
+    made_for: Option<(u64, bool)>,
 }
 
 /// X, Y and Z with their travel, while they may leave it.
@@ -104,9 +104,22 @@ impl MachineTables {
         if self.made_for == Some((commons.generation(), metric)) {
             return Ok(false);
         }
-        self.make(commons, metric)?;
+        self.make_again(commons, metric)
+    }
+
+    #[cold]
+    fn make_again(&mut self, commons: &Commons, metric: bool) -> Result<bool> {
+        let is_shift = |(generation, made_metric)| {
+            made_metric == metric && commons.is_only_shifted_since(generation)
+        };
+        let is_shift = self.made_for.is_some_and(is_shift);
+        if is_shift {
+            self.input_shift = input_shift(commons);
+        } else {
+            self.make(commons, metric)?;
+        }
         self.made_for = Some((commons.generation(), metric));
-        Ok(true)
+        Ok(!is_shift)
     }
 
     fn make(&mut self, commons: &Commons, metric: bool) -> Result<()> {
@@ -135,8 +148,7 @@ impl MachineTables {
         self.tip_vectors =
             self.tip_output && commons.read(loc::ROTARY_TIP_FORM) == RotaryTipForm::Vectors;
         self.frame_output = self.chain.has_rotary() && frame_rules::asks_for_frames(commons);
-        self.input_shift =
-            Vector3::from(loc::INPUT_TRANSLATE.map(|at| commons.dbl_opt(at).unwrap_or(0.0)));
+        self.input_shift = input_shift(commons);
         let along = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).unwrap_or(0.0);
         self.most_departure =
             commons.dbl_opt(loc::LIMITS_MAX_DEPARTURE).filter(|most| *most != NO_DEPARTURE);
@@ -342,4 +354,9 @@ impl MachineTables {
     pub fn input_shift(&self) -> Vector3<f64> {
         self.input_shift
     }
+}
+
+/// What TRANS adds to the points, in the unit of the program.
+fn input_shift(commons: &Commons) -> Vector3<f64> {
+    Vector3::from(loc::INPUT_TRANSLATE.map(|at| commons.dbl_opt(at).unwrap_or(0.0)))
 }

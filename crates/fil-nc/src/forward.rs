@@ -18,9 +18,6 @@ const STEPS: usize = 8;
 /// A step of so many degrees changes no digit any more.
 const EXACT: f64 = 1e-12;
 
-/// Angle in degrees of the difference quotients of [`Forward::refine`].
-const NUDGE: f64 = 1e-3;
-
 /// A tool axis with less than this of Z is square to it.
 const SQUARE: f64 = 1e-5;
 
@@ -156,11 +153,34 @@ impl Forward {
 
     /// The tool axis in the part: `R(u1, r1) R(u2, r2) t`.
     pub fn axis(&self, rotary: [f64; 2]) -> Vector3<f64> {
-        let turned = |vector, index: usize| match &self.machine.rotaries[index] {
-            Some(axis) => turn(axis, rotary[index]) * vector,
-            None => vector,
+        let by_second = self.turned(1, rotary[1], self.machine.tool.into_inner());
+        self.turned(0, rotary[0], by_second)
+    }
+
+    /// A direction turned by a rotary axis at a position.
+    fn turned(&self, index: usize, degrees: f64, vector: Vector3<f64>) -> Vector3<f64> {
+        let Some(axis) = &self.machine.rotaries[index] else { return vector };
+        let along = axis.direction.into_inner();
+        let (sine, cosine) = libm::sincos(degrees.to_radians());
+        // Rodrigues' formula.
+        vector * cosine
+            + along.cross(&vector) * sine
+            + along * (along.dot(&vector) * (1.0 - cosine))
+    }
+
+    /// The tool axis, and its change by a degree of each rotary axis; zero without one, and where
+    /// it lies along it.
+    fn axis_and_slopes(&self, rotary: [f64; 2]) -> (Vector3<f64>, [Vector3<f64>; 2]) {
+        let by_second = self.turned(1, rotary[1], self.machine.tool.into_inner());
+        let axis = self.turned(0, rotary[0], by_second);
+        let slope = |index: usize, turned: &Vector3<f64>| {
+            let rotary = self.machine.rotaries[index].as_ref();
+            let along = rotary.map_or_else(Vector3::zeros, |rotary| rotary.direction.into_inner());
+            let slope = along.cross(turned).map(f64::to_radians);
+            if slope.norm() < TURNS { Vector3::zeros() } else { slope }
         };
-        turned(turned(self.machine.tool.into_inner(), 1), 0)
+        let second = slope(1, &by_second);
+        (axis, [slope(0, &axis), self.turned(0, rotary[0], second)])
     }
 
     /// Where the linear axes count from in the part, without tool-tip control.
@@ -170,7 +190,8 @@ impl Forward {
         }
         let tool = self.machine.tool.into_inner();
         let mut head = tool;
-        let mut frame = Frame { turn: Matrix3::identity(), origin: Point3::origin() };
+        let mut turned: Option<Matrix3<f64>> = None;
+        let mut origin = Point3::origin();
         // From the tool to the part: the secondary axis first.
         for index in [1, 0] {
             let Some(axis) = &self.machine.rotaries[index] else { continue };
@@ -178,16 +199,17 @@ impl Forward {
             match axis.carries {
                 Carries::Head => head = turn * head,
                 Carries::Table => {
-                    frame.turn = turn.matrix() * frame.turn;
-                    frame.origin = axis.center + turn * (frame.origin - axis.center);
+                    origin = axis.center + turn * (origin - axis.center);
+                    turned = Some(turned.map_or(*turn.matrix(), |before| turn.matrix() * before));
                 }
             }
         }
+        let turn = turned.unwrap_or_else(Matrix3::identity);
         // The linear axes carry the pivot, which stands above the tip at zero.
         if let Some(length) = self.machine.pivot {
-            frame.origin -= frame.turn * (head - tool) * length;
+            origin -= turn * (head - tool) * length;
         }
-        frame
+        Frame { turn, origin }
     }
 
     /// Most that a turn of the rotary axes by a radian may move the tip, mm.
@@ -200,8 +222,9 @@ impl Forward {
     /// Most that a rotary axis turns at these positions for a change of the tool axis, radians;
     /// degrees. Beside a pole it is much for little.
     pub fn turn_for(&self, rotary: [f64; 2], change: f64) -> f64 {
-        let turn = |index| Some(self.slope(rotary, index).norm()).filter(|slope| *slope > 0.0);
-        [0, 1].into_iter().filter_map(turn).map(|slope| change / slope).fold(0.0, f64::max)
+        let (_, slopes) = self.axis_and_slopes(rotary);
+        let turns = slopes.map(|slope| slope.norm()).into_iter().filter(|slope| *slope > 0.0);
+        turns.map(|slope| change / slope).fold(0.0, f64::max)
     }
 
     /// Rotary positions near `rotary` at which the tool lies exactly along `axis`,
@@ -212,28 +235,14 @@ impl Forward {
         }
         let mut at = rotary;
         for _ in 0..STEPS {
-            let off = axis - self.axis(at);
-            let slope = [0, 1].map(|index| self.slope(at, index));
-            let step = least_squares(slope, off);
+            let (stands, slopes) = self.axis_and_slopes(at);
+            let step = least_squares(slopes, axis - stands);
             at = [at[0] + step[0], at[1] + step[1]];
             if step.iter().all(|step| step.abs() < EXACT) {
                 break;
             }
         }
         at
-    }
-
-    /// Change of the tool axis by a degree of a rotary axis; zero without one.
-    fn slope(&self, at: [f64; 2], index: usize) -> Vector3<f64> {
-        if self.machine.rotaries[index].is_none() {
-            return Vector3::zeros();
-        }
-        let mut ahead = at;
-        let mut behind = at;
-        ahead[index] += NUDGE;
-        behind[index] -= NUDGE;
-        let slope = (self.axis(ahead) - self.axis(behind)) / (2.0 * NUDGE);
-        if slope.norm() < TURNS { Vector3::zeros() } else { slope }
     }
 }
 

@@ -145,7 +145,7 @@ impl<C: Steps> Verifier<'_, C> {
             return false;
         };
         // A new tool is brought there anew.
-        if self.facts.has(Fact::FreshTool) {
+        if self.facts.has(Fact::FreshTool) || self.goes_on_under_tip_control() {
             return false;
         }
         while self.stands_at(pose) {
@@ -172,6 +172,14 @@ impl<C: Steps> Verifier<'_, C> {
             self.stand(&found);
         }
         false
+    }
+
+    /// The program moves on under tool-tip control.
+    fn goes_on_under_tip_control(&self) -> bool {
+        let next = self.next_move().filter(|found| found.to.tip_control);
+        next.is_some_and(|found| {
+            !self.is_still(&found) && !self.own.has(found.line) && !self.goes_up_at_tip_end(&found)
+        })
     }
 
     /// Tool-tip control ends before an event, though it may begin again, for another work offset

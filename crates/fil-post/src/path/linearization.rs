@@ -178,7 +178,7 @@ fn output(post: &Post, number: usize) -> f64 {
 }
 
 /// What the positions of the machine hang on besides the point.
-fn settings(post: &Post) -> (u32, bool) {
+fn settings(post: &Post) -> (u64, bool) {
     (post.control.commons.generation(), post.control.is_metric())
 }
 

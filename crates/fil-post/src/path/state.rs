@@ -279,7 +279,7 @@ pub struct Straightness {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arrived {
     /// State of the settings and of the unit that the positions hold for.
-    pub(super) settings: (u32, bool),
+    pub(super) settings: (u64, bool),
     /// The point in the part, after TRANS, and the rotary positions.
     pub(super) target: (Point3<f64>, [f64; 2]),
     pub(super) position: Position,
