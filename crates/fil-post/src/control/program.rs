@@ -370,7 +370,7 @@ fn time_stamp(control: &mut Control) -> Result<()> {
         return control.put_line(&format!(";{time}"), false).map(|_| ());
     }
     let marks = MessageMarks::of(control);
-    control.put_line(&marks.enclose(&time, None), false).map(|_| ())
+    control.put_line(&marks.enclose(&time), false).map(|_| ())
 }
 
 /// Lists the tools in comments, where the machine wants them.
@@ -405,9 +405,7 @@ fn part_name(control: &mut Control) -> Result<()> {
     let end = control.tables.style.end_of_block;
     let (name, _) = super::texts::clean_message(&name, marks.both(), end);
     let cause = control.head.cause;
-    control
-        .because(cause, |control| control.put_line(&marks.enclose(&name, None), false))
-        .map(|_| ())
+    control.because(cause, |control| control.put_line(&marks.enclose(&name), false)).map(|_| ())
 }
 
 /// Writes the leader or the trailer of a tape that is no direct transfer.

@@ -29,12 +29,11 @@ impl MessageMarks {
         [self.open, self.close.unwrap_or(self.open)]
     }
 
-    /// A message between them, behind it the mark of one that goes on.
-    pub fn enclose(self, text: &str, goes_on: Option<char>) -> String {
-        let mut message = String::with_capacity(text.len() + 12);
+    /// A message between them.
+    pub fn enclose(self, text: &str) -> String {
+        let mut message = String::with_capacity(text.len() + 8);
         message.push(self.open);
         message.push_str(text);
-        message.extend(goes_on);
         message.extend(self.close);
         message
     }

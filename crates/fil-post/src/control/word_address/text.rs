@@ -85,11 +85,13 @@ pub fn message(control: &mut Control, text: &str) -> Result<()> {
     while !rest.is_empty() {
         let (mut part, mut left) = split_message(rest, longest);
         // The mark of a message that goes on is one of its characters.
-        let mark = goes_on.filter(|_| !left.is_empty());
-        if mark.is_some() {
+        let with_mark;
+        if let Some(mark) = goes_on.filter(|_| !left.is_empty()) {
             (part, left) = split_message(rest, longest - 1);
+            with_mark = format!("{part}{mark}");
+            part = &with_mark;
         }
-        control.write_comment(&marks.enclose(part, mark), numbered)?;
+        control.write_comment(&marks.enclose(part), numbered)?;
         rest = left;
     }
     Ok(())
