@@ -88,6 +88,8 @@ pub struct Commons {
     without_effect: Vec<String>,
     /// Work offsets that a program may choose where no CL file asks for one.
     allowed_offsets: Vec<String>,
+    /// Settings with other values that no proven program tells apart from its own.
+    undecided: Vec<String>,
     /// Levels of findings that the machine sets.
     levels: Levels,
     /// Options of the post, with their values.
@@ -108,6 +110,7 @@ impl Commons {
             generation: 0,
             without_effect: Vec::new(),
             allowed_offsets: Vec::new(),
+            undecided: Vec::new(),
             levels: Levels::default(),
             options: PostOptions::default(),
             effects: Effects::default(),
@@ -197,6 +200,17 @@ impl Commons {
     /// program may choose where its CL file asks for none.
     pub fn allowed_offsets(&self) -> &[String] {
         &self.allowed_offsets
+    }
+
+    /// Settings as `KEY=VALUE`: with these values the programs that the machine was learned from
+    /// come out the same (`learned.undecided`).
+    pub fn undecided(&self) -> &[String] {
+        &self.undecided
+    }
+
+    /// Sets what no proven program decides.
+    pub fn set_undecided(&mut self, settings: Vec<String>) {
+        self.undecided = settings;
     }
 
     /// Allows a work offset, in any case of letters; false for what is no name of one.

@@ -1,5 +1,6 @@
 //! The command line.
 
+mod learn;
 mod levels;
 mod machine;
 mod names;
@@ -16,6 +17,7 @@ use filpost::{Moment, Unit};
 
 use crate::version;
 
+pub use learn::LearnArgs;
 pub use levels::LevelArgs;
 pub use machine::{MachineArgs, MachineCommand};
 pub use plot::{PlotArgs, Seen};
@@ -58,6 +60,8 @@ pub enum Command {
     Posts(PostsArgs),
     /// Import and show machine settings
     Machine(MachineArgs),
+    /// Find the settings of a post from pairs of CL file and proven NC program
+    Learn(LearnArgs),
     /// Post a case at each save, and show what has changed
     Watch(WatchArgs),
     /// Serve an editor: the language server, over standard input and output

@@ -14,6 +14,7 @@ mod errors;
 mod explain;
 mod fmt;
 mod job;
+mod learn;
 mod machine;
 mod manual;
 mod new;
@@ -63,6 +64,9 @@ fn main() -> ExitCode {
     std::panic::set_hook(Box::new(report_fault));
     // Without a handler a stopped command would leave files in the making behind.
     let _ = ctrlc::set_handler(|| {
+        if learn::end_search() {
+            return;
+        }
         files::give_up();
         std::process::exit(STOPPED);
     });
@@ -105,6 +109,7 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Explain(args) => explain::run(&args.subject),
         Command::Posts(args) => ready_posts::run(args),
         Command::Machine(args) => machine::run(args),
+        Command::Learn(args) => learn::run(args),
         Command::Watch(args) => watch::run(args),
         Command::Lsp => Ok(served(filpost_lsp::serve_stdio())),
         Command::Dap => Ok(served(filpost_dap::serve_stdio())),

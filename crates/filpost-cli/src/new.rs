@@ -49,7 +49,7 @@ pub fn run(args: &NewArgs) -> Result<Status, Error> {
         ("cases/first/part.ncl", part.as_bytes()),
         ("cases/first/expected.nc", nc.as_slice()),
     ];
-    write(&args.folder, &content).inspect_err(|_| remove_empty(&args.folder))?;
+    write_files(&args.folder, &content).inspect_err(|_| remove_empty(&args.folder))?;
     let folder = args.folder.display();
     output::print(
         format!("Created {folder} from {}. Next: {folder}/README.md\n", base.name).as_bytes(),
@@ -77,7 +77,7 @@ fn first_program(base: &ReadyPost, program: &Program) -> Result<(&'static str, V
 }
 
 /// A folder that was not there.
-fn make_folder(folder: &Path) -> Result<(), Error> {
+pub fn make_folder(folder: &Path) -> Result<(), Error> {
     files::refuse_name(folder, cfg!(windows))?;
     let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty());
     if let Some(parent) = parent {
@@ -96,10 +96,16 @@ fn make_folder(folder: &Path) -> Result<(), Error> {
 /// The folder that holds the first case.
 const FIRST: &str = "cases/first";
 
-/// Writes the files of the folder: all or none.
-fn write(folder: &Path, content: &[(&str, &[u8])]) -> Result<(), Error> {
-    let case = folder.join(FIRST);
-    fs::create_dir_all(&case).map_err(|error| files::cant_write(&case, &error))?;
+/// Writes files below a folder, all or none, and makes the folders that they need.
+///
+/// # Errors
+/// E0702
+pub fn write_files(folder: &Path, content: &[(&str, &[u8])]) -> Result<(), Error> {
+    for (name, _) in content {
+        let parent = folder.join(name);
+        let parent = parent.parent().unwrap_or(folder);
+        fs::create_dir_all(parent).map_err(|error| files::cant_write(parent, &error))?;
+    }
     let mut pending = PendingFiles::default();
     for (name, content) in content {
         pending.add(output::new_file(&folder.join(name), content)?);

@@ -100,6 +100,10 @@ fil_diag::codes! {
         OtherSigns = 757, Warning, "CL text of another dialect than the one chosen",
             "Only one CAM system writes this line, and the dialect of another was chosen; tool axes, cycles and texts may mean something else.",
             "Choose the dialect of that system, or none.";
+        /// A setting acts that no proven program decides.
+        Undecided = 758, Warning, "no proven program decides this setting",
+            "`filpost learn` found this setting with another value to be as good: no proven program shows it. Here it changes the program.",
+            "Compare the block with a program of the old post; `filpost learn --check` takes that program as a further pair.";
     }
 }
 

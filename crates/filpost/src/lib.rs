@@ -74,6 +74,7 @@ mod statement;
 mod survey;
 pub mod tally;
 pub mod trace;
+mod undecided;
 mod units;
 pub mod verify;
 pub mod word_pages;

@@ -8,9 +8,9 @@ use std::sync::Arc;
 
 use fil_cl::{Record, Vocabulary};
 use fil_diag::Diag;
-use fil_machine::{Commons, tape_style};
 #[cfg(feature = "files")]
-use fil_machine::{contradictions, locations::Location};
+use fil_machine::locations::Location;
+use fil_machine::{Commons, contradictions, tape_style};
 use fil_text::CodePage;
 use fil_vm::{Functions, Limits, Module};
 
@@ -208,12 +208,38 @@ impl Program {
         let mut commons = self.commons().clone();
         let (number, value) = (u32::from(setting.number), setting.default_value());
         commons.set(setting.kind, number, value).map_err(|diag| Error::Setup(vec![*diag]))?;
+        self.with_machine(commons)
+    }
+
+    /// The same FIL with the same levels on another machine, without reading any file again: for
+    /// many trials of settings. Scripts of such a program run no commands.
+    ///
+    /// ```
+    /// use filpost::{Kind, Program};
+    ///
+    /// let program = Program::builder().ready("fanuc-mill").build()?;
+    /// let mut machine = program.commons().clone();
+    /// let code = filpost::locations::Location::named("program.rewind_code").expect("a setting");
+    /// machine.set(code.kind, code.number.into(), 2.0).map_err(|diag| filpost::Error::Run(diag))?;
+    /// let mut nc = Vec::new();
+    /// program.with_machine(machine)?.run("UNITS / MM\nFINI\n".as_bytes(), &mut nc)?;
+    /// assert!(String::from_utf8_lossy(&nc).contains("M2\n"));
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Settings that contradict each other.
+    pub fn with_machine(&self, commons: Commons) -> Result<Program, Error> {
         let wrong = contradictions::all(&commons);
         if !wrong.is_empty() {
             return Err(Error::Setup(wrong));
         }
         let shared = &self.shared;
-        let prototype = fil_post::Post::new(commons).map_err(|diag| Error::Setup(vec![*diag]))?;
+        let mut prototype =
+            fil_post::Post::new(commons).map_err(|diag| Error::Setup(vec![*diag]))?;
+        let warnings = &shared.prototype.control.warnings;
+        prototype.control.warnings.levels = warnings.levels.clone();
+        prototype.control.warnings.allowed_lines = Arc::clone(&warnings.allowed_lines);
         let shared = Shared {
             prototype,
             module: Arc::clone(&shared.module),

@@ -30,6 +30,7 @@ use crate::pending::PendingFiles;
 use crate::program::Program;
 use crate::report::Report;
 use crate::source::Stream;
+use crate::undecided;
 
 /// A run that has not begun: options first, then one of the methods that take a
 /// CL stream. Options that are left out are those of [`Program::run`].
@@ -183,6 +184,35 @@ impl<'o> Run<'o> {
     /// # Errors
     /// As [`Run::run`].
     pub fn run_pending(
+        self,
+        mut cl: impl Read + Seek + Send,
+        nc: impl Write,
+    ) -> Result<(Report, PendingFiles), Error> {
+        if self.program.commons().undecided().is_empty() {
+            return self.run_unwatched(cl, nc);
+        }
+        let name = self.name();
+        let cant = |error| files::cant_read(Path::new(&name), &error);
+        let start = cl.stream_position().map_err(cant)?;
+        let (program, reading, units) = (self.program.clone(), self.reading, self.units);
+        let (mut report, pending) = self.run_unwatched(&mut cl, nc)?;
+        cl.seek(SeekFrom::Start(start)).map_err(cant)?;
+        let mut text = Vec::new();
+        cl.read_to_end(&mut text).map_err(cant)?;
+        let again = |program: Program| Run { reading, units, ..Run::new(program) };
+        let levels = &program.shared.prototype.control.warnings.levels;
+        for warning in undecided::warnings(&program, &again, &text, &name) {
+            let level = levels.of_code(warning.code);
+            match warning.at_level(level) {
+                Some(denied) if denied.is_error() => return Err(Error::Run(Box::new(denied))),
+                warning => report.warnings.extend(warning),
+            }
+        }
+        Ok((report, pending))
+    }
+
+    /// The same, without a look at settings that no proven program decides.
+    pub(crate) fn run_unwatched(
         self,
         mut cl: impl Read + Seek + Send,
         mut nc: impl Write,

@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod architecture;
 mod code;
+mod learn_judge;
 mod metrics;
 mod shadow;
 
@@ -14,12 +15,14 @@ use clap::Parser;
 #[derive(Parser)]
 #[command(name = "cargo xtask", about = "Tools for work on filpost")]
 enum Command {
+    LearnJudge(learn_judge::Args),
     Metrics(metrics::Args),
     Shadow(shadow::Args),
 }
 
 fn main() -> ExitCode {
     let done = match Command::parse() {
+        Command::LearnJudge(args) => learn_judge::command(&args),
         Command::Metrics(args) => metrics::command(&args),
         Command::Shadow(args) => shadow::command(&args),
     };

@@ -31,6 +31,9 @@ pub fn write_toml(commons: &Commons) -> String {
     if !commons.allowed_offsets().is_empty() {
         let _ = writeln!(out, "verify.allowed_offsets = {:?}", commons.allowed_offsets());
     }
+    if !commons.undecided().is_empty() {
+        let _ = writeln!(out, "learned.undecided = {:?}", commons.undecided());
+    }
     unnamed(commons, &defaults, &mut out);
     levels(commons.levels(), &mut out);
     effects(commons.effects(), &mut out);

@@ -25,6 +25,7 @@ pub fn schema() -> Value {
         }
     }
     properties.insert("address".into(), addresses());
+    properties.insert("learned".into(), learned());
     properties.insert("levels".into(), levels());
     let value = json!({"type": ["string", "number", "boolean"]});
     properties.insert(
@@ -86,6 +87,21 @@ fn setting(row: &Location) -> Value {
         description.push_str(&format!(" {}.", listed.join(", ")));
     }
     json!({"anyOf": forms, "description": description})
+}
+
+/// `[learned]`: what `filpost learn` could not decide.
+fn learned() -> Value {
+    let settings = json!({
+        "type": "array",
+        "items": {"type": "string"},
+        "description": "Settings as KEY=VALUE: with these values the proven programs come out the \
+            same. `filpost post` warns where one would change a program.",
+    });
+    json!({
+        "type": "object",
+        "properties": {"undecided": settings},
+        "additionalProperties": false,
+    })
 }
 
 /// `[levels]`: the profile, and the level of all codes or of one.

@@ -16,6 +16,7 @@ mod fmt;
 mod hosts;
 #[cfg(unix)]
 mod install;
+mod learn;
 mod listing;
 mod machine;
 mod making_cases;

@@ -4,7 +4,7 @@
 //! `int.1870 = 1`, `rel.11 = 1.0`, `dbl.486 = 2.0`; `[address.X]` holds `slot`,
 //! `format`, `spec` and `char` of a letter; `blocks.start` and `blocks.end` are
 //! lists of texts, and so are `words.without_effect`, the major words that pass, and
-//! `verify.allowed_offsets`, what a program may choose unasked; `[levels]` sets levels of codes,
+//! `verify.allowed_offsets`, what a program may choose unasked, and `learned.undecided`; `[levels]` sets levels of codes,
 //! `[effects]` says what blocks of the shop do, `[option.NAME]` declares an option of the post and
 //! `[options]` gives values. A flag takes true or false, a letter or character a text of
 //! one character, and every setting takes `"none"` for absent.
@@ -37,6 +37,9 @@ const MOST_WORDS: usize = 1000;
 
 /// Most work offsets that a machine allows without being asked for.
 const MOST_OFFSETS: usize = 1000;
+
+/// Most settings that a machine lists as undecided.
+const MOST_UNDECIDED: usize = 10_000;
 
 /// What a `machine.toml` may say about itself without it being a setting.
 const ABOUT: &[&str] = &["name", "description", "origin"];
@@ -323,6 +326,10 @@ impl<'a> TomlReader<'a> {
         }
         if let Some(block) = name.strip_prefix(EFFECTS) {
             return self.effect(commons, block, key, value);
+        }
+        if name == "learned.undecided" {
+            commons.set_undecided(self.texts(value, MOST_UNDECIDED)?);
+            return Ok(());
         }
         if name == "verify.allowed_offsets" {
             for offset in self.texts(value, MOST_OFFSETS)? {

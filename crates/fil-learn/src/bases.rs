@@ -1,0 +1,102 @@
+//! Machines to begin from.
+
+use std::sync::Arc;
+
+use filpost::{Commons, Error, OptionKind, Program, ready};
+
+/// Where the search begins.
+#[derive(Clone, Debug)]
+pub enum Bases {
+    /// Ready posts by their names; the search chooses one.
+    Ready(Vec<String>),
+    /// A program whose machine is kept as far as the pairs allow: an option file with its FIL, or
+    /// an own post.
+    Given {
+        /// What reports call it.
+        title: String,
+        /// Machine and FIL.
+        program: Program,
+    },
+}
+
+impl Bases {
+    /// All ready posts.
+    pub fn all() -> Bases {
+        Bases::Ready(ready::READY.iter().map(|post| post.name.into()).collect())
+    }
+}
+
+/// A machine to begin from, built.
+#[derive(Debug)]
+pub(crate) struct Base {
+    /// What reports call it.
+    pub title: String,
+    /// The ready post; `None` for a given program.
+    pub post: Option<String>,
+    /// Options of the post that are not at their defaults.
+    pub options: Vec<(String, String)>,
+    /// Its machine and the FIL of the task.
+    pub program: Program,
+}
+
+impl Base {
+    /// A ready post with values of options.
+    ///
+    /// # Errors
+    /// The post or the FIL can't be built.
+    pub fn ready(
+        post: &str,
+        options: Vec<(String, String)>,
+        fil: &[(String, String)],
+    ) -> Result<Base, Error> {
+        let mut builder = Program::builder().machine("machine.toml", &head(post, &options));
+        for (name, text) in fil {
+            builder = builder.fil(name, text);
+        }
+        let program = builder.build()?;
+        Ok(Base { title: post.into(), post: Some(post.into()), options, program })
+    }
+
+    /// The settings of the base.
+    pub fn commons(&self) -> &Commons {
+        self.program.commons()
+    }
+
+    /// The same post with one other value of an option, for each value there is.
+    pub fn with_other_options(&self, fil: &[(String, String)]) -> Vec<Arc<Base>> {
+        let Some(post) = &self.post else { return Vec::new() };
+        let mut others = Vec::new();
+        for option in self.program.options() {
+            let now = option.value.to_string();
+            for value in values(&option.kind).into_iter().filter(|value| *value != now) {
+                let mut options = self.options.clone();
+                options.retain(|(name, _)| *name != option.name);
+                if value != option.default.to_string() {
+                    options.push((option.name.clone(), value));
+                }
+                options.sort();
+                others.extend(Base::ready(post, options, fil).ok().map(Arc::new));
+            }
+        }
+        others
+    }
+}
+
+/// The values of an option that are worth a trial.
+fn values(kind: &OptionKind) -> Vec<String> {
+    match kind {
+        OptionKind::Bool => vec!["yes".into(), "no".into()],
+        OptionKind::Choice(names) => names.clone(),
+        OptionKind::Integer { .. } | OptionKind::Length { .. } | OptionKind::Text => Vec::new(),
+    }
+}
+
+/// The first lines of a `machine.toml` over a ready post; its options, as keys of their own
+/// tables, come with it.
+pub(crate) fn head(post: &str, options: &[(String, String)]) -> String {
+    let mut head = format!("base = {post:?}\n");
+    for (name, value) in options {
+        head.push_str(&format!("options.{name} = {value:?}\n"));
+    }
+    head
+}

@@ -1,0 +1,56 @@
+//! Finds the settings with which filpost writes the same programs as a proven post.
+//!
+//! A [`Task`] has pairs of a CL file and the NC program that ran on the machine. [`learn`]
+//! changes settings of ready posts, posts the CL files, and compares with the proven programs.
+//! The result is a [`Learned`]: a machine, the lines that prove each of its settings, what no
+//! pair decides, and the lines that still differ. It is the same for the same input, whatever
+//! the number of threads.
+#![deny(missing_docs)]
+
+mod align;
+mod bases;
+mod candidates;
+mod change;
+mod check;
+mod facts;
+mod learned;
+mod myers;
+mod proof;
+mod readings;
+mod report;
+mod score;
+mod search;
+mod task;
+mod texts;
+mod trial;
+mod undecided;
+mod words;
+
+pub use bases::Bases;
+pub use check::Checked;
+pub use learned::{Learned, LearnedPair};
+pub use proof::Proof;
+pub use task::{Pair, Progress, Task};
+
+use filpost::Error;
+
+/// Finds the settings of the post that wrote the proven programs of a task.
+///
+/// # Errors
+/// No base can be built, or every base refuses every CL file.
+pub fn learn(task: &Task<'_>) -> Result<Learned, Error> {
+    search::learn(task)
+}
+
+/// Checks a post that was learned with further pairs. The base of the task is the post.
+///
+/// # Errors
+/// A base that can't be built.
+pub fn check(task: &Task<'_>) -> Result<Checked, Error> {
+    check::check(task)
+}
+
+/// The example of the README, run with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,374 @@
+//! `cargo xtask learn-judge`: hidden posts, which `filpost learn` has to find from their programs.
+//!
+//! A hidden post is a ready post with some groups of settings changed at random. It posts parts to
+//! learn from, and others that are held out. What is learned must write all of them.
+
+use std::collections::BTreeSet;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use fil_learn::{Bases, Pair, Task};
+use filpost::Program;
+
+mod groups;
+
+/// Judge `filpost learn` with hidden posts
+#[derive(clap::Args)]
+pub struct Args {
+    /// Seed of the random numbers
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Hidden posts
+    #[arg(long, default_value_t = 12)]
+    posts: usize,
+    /// Only this hidden post, from 1
+    #[arg(long)]
+    only: Option<usize>,
+    /// Options that every hidden post has, such as style=plain; left out where a post lacks them
+    #[arg(long, value_name = "NAME=VALUE")]
+    option: Vec<String>,
+    /// Threads
+    #[arg(long, default_value_t = 2)]
+    threads: usize,
+    /// Show what was hidden, what was found and what differs
+    #[arg(long)]
+    verbose: bool,
+}
+
+/// Parts to learn from, and parts held out.
+const LEARNED: usize = 3;
+const HELD_OUT: usize = 4;
+
+/// Ready posts that are hidden.
+const HIDDEN: [&str; 10] = [
+    "brother-mill",
+    "fanuc-mill",
+    "grbl",
+    "haas-mill",
+    "linuxcnc-mill",
+    "mach3-mill",
+    "mach4-mill",
+    "mazak-mill",
+    "mitsubishi-mill",
+    "okuma-mill",
+];
+
+/// Random numbers, the same everywhere.
+pub struct Random(u64);
+
+impl Random {
+    /// A number below a bound.
+    pub fn below(&mut self, bound: usize) -> usize {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) as usize) % bound.max(1)
+    }
+
+    /// One of some things.
+    pub fn one<'a, T>(&mut self, of: &'a [T]) -> &'a T {
+        &of[self.below(of.len())]
+    }
+}
+
+/// A part: its name and its CL file.
+struct Part {
+    name: String,
+    cl: String,
+}
+
+/// A hidden post with the programs that it makes.
+struct Hidden {
+    base: &'static str,
+    settings: Vec<String>,
+    learned: Vec<(usize, Vec<u8>)>,
+    held_out: Vec<(usize, Vec<u8>)>,
+    /// Each group changes a program that is learned from.
+    is_shown: bool,
+}
+
+/// What became of all hidden posts.
+#[derive(Default)]
+struct Totals {
+    posts: usize,
+    learned: usize,
+    held_out: (usize, usize),
+    as_control: usize,
+    refused: usize,
+    warned: usize,
+    quietly_wrong: usize,
+    warned_equal: usize,
+    shown: (usize, usize),
+    unproven: usize,
+    times: Vec<Duration>,
+    runs: Vec<u64>,
+}
+
+/// Runs the judge.
+pub fn command(args: &Args) -> Result<ExitCode, String> {
+    let parts = parts()?;
+    let mut random = Random(args.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5eed);
+    let mut totals = Totals::default();
+    for number in 1..=args.posts {
+        let hidden = hide(&mut random, &parts, &args.option);
+        if args.only.is_some_and(|only| only != number) {
+            continue;
+        }
+        judge(args, number, &hidden, &parts, &mut totals);
+    }
+    totals.tell(args);
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The parts of the corpus: milled ones in three axes.
+fn parts() -> Result<Vec<Part>, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut files: Vec<PathBuf> = Vec::new();
+    let cl = root.join("corpus/mills/cl");
+    for entry in std::fs::read_dir(&cl).map_err(|error| format!("{}: {error}", cl.display()))? {
+        files.push(entry.map_err(|error| error.to_string())?.path());
+    }
+    files.push(root.join("corpus/tutorial/plate.ncl"));
+    files.sort();
+    let read = |path: PathBuf| {
+        let cl = std::fs::read_to_string(&path).map_err(|error| error.to_string())?;
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
+        Ok(Part { name: name.unwrap_or_default(), cl })
+    };
+    files.into_iter().map(read).collect()
+}
+
+fn program(base: &str, options: &[String], settings: &[String]) -> Option<Program> {
+    let mut builder = Program::builder().machine("hidden.toml", &format!("base = {base:?}\n"));
+    for (name, value) in options.iter().filter_map(|option| option.split_once('=')) {
+        builder = builder.option(name, value);
+    }
+    let built = settings.iter().fold(builder, |builder, setting| builder.set(setting)).build();
+    match built {
+        Ok(program) => Some(program),
+        // A post without the option.
+        Err(_) if !options.is_empty() => program_without(base, settings),
+        Err(_) => None,
+    }
+}
+
+fn program_without(base: &str, settings: &[String]) -> Option<Program> {
+    program(base, &[], settings)
+}
+
+fn post(program: &Program, cl: &str) -> Option<(Vec<u8>, Vec<String>)> {
+    let mut nc = Vec::new();
+    let report = program.start().run_seekable(Cursor::new(cl.as_bytes()), &mut nc).ok()?;
+    Some((nc, report.warnings.iter().map(|diag| diag.code.name()).collect()))
+}
+
+/// Makes a hidden post that posts enough parts.
+fn hide(random: &mut Random, parts: &[Part], options: &[String]) -> Hidden {
+    loop {
+        let base = *random.one(&HIDDEN);
+        let wanted = 3 + random.below(13);
+        let mut groups: Vec<Vec<String>> = Vec::new();
+        let mut taken = BTreeSet::new();
+        for _ in 0..200 {
+            if groups.len() == wanted {
+                break;
+            }
+            let (kind, group) = groups::group(random);
+            if !taken.insert(kind) {
+                continue;
+            }
+            let with: Vec<String> = groups.iter().flatten().chain(&group).cloned().collect();
+            if program(base, options, &with).is_some() {
+                groups.push(group);
+            }
+        }
+        let settings: Vec<String> = groups.iter().flatten().cloned().collect();
+        let Some(post_of_all) = program(base, options, &settings) else { continue };
+        let mut made: Vec<(usize, Vec<u8>)> = (0..parts.len())
+            .filter_map(|part| post(&post_of_all, &parts[part].cl).map(|(nc, _)| (part, nc)))
+            .collect();
+        if made.len() < LEARNED + HELD_OUT {
+            continue;
+        }
+        let mut draw = |count: usize| -> Vec<(usize, Vec<u8>)> {
+            (0..count).map(|_| made.swap_remove(random.below(made.len()))).collect()
+        };
+        let (learned, held_out) = (draw(LEARNED), draw(HELD_OUT));
+        let shows = |at: usize| {
+            let rest = groups.iter().enumerate().filter(|(other, _)| *other != at);
+            let rest: Vec<String> = rest.flat_map(|(_, group)| group.clone()).collect();
+            let Some(without) = program(base, options, &rest) else { return true };
+            learned.iter().any(|(part, nc)| {
+                post(&without, &parts[*part].cl).is_none_or(|(other, _)| other != *nc)
+            })
+        };
+        let is_shown = (0..groups.len()).all(shows);
+        return Hidden { base, settings, learned, held_out, is_shown };
+    }
+}
+
+fn judge(args: &Args, number: usize, hidden: &Hidden, parts: &[Part], totals: &mut Totals) {
+    let pairs = hidden.learned.iter().map(|(part, nc)| {
+        let name = &parts[*part].name;
+        Pair::new(name, parts[*part].cl.as_bytes(), &format!("{name}.nc"), nc)
+    });
+    let task = Task::new(pairs.collect(), Bases::all()).threads(args.threads);
+    let start = Instant::now();
+    let learned = match fil_learn::learn(&task) {
+        Ok(learned) => learned,
+        Err(error) => {
+            println!("{number} {}: {error}", hidden.base);
+            totals.posts += 1;
+            totals.shown.1 += usize::from(hidden.is_shown);
+            totals.held_out.1 += hidden.held_out.len();
+            return;
+        }
+    };
+    let time = start.elapsed();
+    totals.posts += 1;
+    totals.learned += usize::from(learned.is_equal());
+    totals.times.push(time);
+    totals.runs.push(learned.runs());
+    totals.unproven += learned.proofs().filter(|proof| proof.count == 0 && !proof.refused).count();
+    let toml = learned.machine_toml();
+    let built = Program::builder().machine("machine.toml", &toml).build();
+    let mut equal = 0;
+    for (part, nc) in &hidden.held_out {
+        totals.held_out.1 += 1;
+        let made = built.as_ref().ok().and_then(|program| post(program, &parts[*part].cl));
+        let Some((ours, warnings)) = made else {
+            totals.refused += 1;
+            continue;
+        };
+        let is_equal = ours == *nc;
+        let is_warned = warnings.iter().any(|code| code == "W0758");
+        equal += usize::from(is_equal);
+        let alike = is_equal || read_alike(&ours, nc);
+        totals.as_control += usize::from(alike);
+        totals.warned += usize::from(!alike && is_warned);
+        totals.quietly_wrong += usize::from(!alike && !is_warned);
+        totals.warned_equal += usize::from(is_equal && is_warned);
+        if args.verbose && !is_equal {
+            println!("  held out {} (warned: {is_warned})", parts[*part].name);
+            tell_difference(nc, &ours);
+        }
+    }
+    totals.held_out.0 += equal;
+    let all = equal == hidden.held_out.len();
+    totals.shown.0 += usize::from(hidden.is_shown && all);
+    totals.shown.1 += usize::from(hidden.is_shown);
+    println!(
+        "{number} {}: {} settings hidden, {} found over {}, learned {}, held out {equal}/{}, shown {}, {} runs, {:.1} s",
+        hidden.base,
+        hidden.settings.len(),
+        learned.proofs().count(),
+        learned.base(),
+        learned.is_equal(),
+        hidden.held_out.len(),
+        hidden.is_shown,
+        learned.runs(),
+        time.as_secs_f64(),
+    );
+    if let Err(error) = &built {
+        println!("  machine.toml can't be read: {error}\n{toml}");
+    }
+    if args.verbose {
+        println!("  hidden {}", hidden.settings.join("; "));
+        for proof in learned.proofs() {
+            println!("  found {} = {} ({})", proof.key, proof.value, proof.count);
+        }
+        for pair in learned.pairs().iter().filter(|pair| !pair.is_equal) {
+            println!("  not learned {} {} of {}", pair.nc_name, pair.equal, pair.blocks);
+            for (line, proven, ours) in pair.left.iter().take(6) {
+                println!("    {line} - {proven:?}\n    {line} + {ours:?}");
+            }
+        }
+    }
+}
+
+/// As a control reads both programs.
+fn read_alike(ours: &[u8], proven: &[u8]) -> bool {
+    let words = |text: &[u8]| -> Vec<String> {
+        let text = String::from_utf8_lossy(text).to_ascii_uppercase();
+        let lines = text.lines().map(|line| {
+            let mut line = line.trim();
+            if let Some(rest) = line.strip_prefix('N') {
+                line = rest.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start();
+            }
+            let mut out = String::new();
+            let mut number = String::new();
+            let flush = |number: &mut String, out: &mut String| {
+                if let Ok(value) = number.parse::<f64>() {
+                    out.push_str(&value.to_string());
+                } else {
+                    out.push_str(number);
+                }
+                number.clear();
+            };
+            for c in line.chars().filter(|c| !c.is_whitespace()) {
+                if c.is_ascii_digit() || "+-.".contains(c) {
+                    number.push(c);
+                } else {
+                    flush(&mut number, &mut out);
+                    out.push(c);
+                }
+            }
+            flush(&mut number, &mut out);
+            out
+        });
+        lines.filter(|line| !line.is_empty()).collect()
+    };
+    words(ours) == words(proven)
+}
+
+fn tell_difference(proven: &[u8], ours: &[u8]) {
+    let [proven, ours] = [proven, ours].map(|text| String::from_utf8_lossy(text).into_owned());
+    let (proven, ours): (Vec<&str>, Vec<&str>) = (proven.lines().collect(), ours.lines().collect());
+    for line in 0..proven.len().max(ours.len()) {
+        let (a, b) = (proven.get(line), ours.get(line));
+        if a != b {
+            println!("    {} - {:?}\n    {} + {:?}", line + 1, a, line + 1, b);
+            if line > 30 {
+                break;
+            }
+        }
+    }
+}
+
+impl Totals {
+    fn tell(&mut self, args: &Args) {
+        let percent = |part: usize, of: usize| 100.0 * part as f64 / of.max(1) as f64;
+        self.times.sort();
+        self.runs.sort_unstable();
+        let (posts, (held, of)) = (self.posts, self.held_out);
+        println!("posts whose programs all come out: {} of {posts}", self.learned);
+        println!("held out, byte for byte: {held} of {of} ({:.0} %)", percent(held, of));
+        println!("held out, as a control reads them: {} of {of}", self.as_control);
+        println!(
+            "posts whose groups are all shown, all held out right: {} of {}",
+            self.shown.0, self.shown.1
+        );
+        println!(
+            "held out and refused: {}, wrong and warned of: {}, quietly wrong: {}",
+            self.refused, self.warned, self.quietly_wrong
+        );
+        println!(
+            "warned of and equal: {} ({:.0} %)",
+            self.warned_equal,
+            percent(self.warned_equal, held)
+        );
+        println!("settings without a proof: {}", self.unproven);
+        let median = self.times.get(self.times.len() / 2).copied().unwrap_or_default();
+        let worst = self.times.last().copied().unwrap_or_default();
+        let runs = self.runs.get(self.runs.len() / 2).copied().unwrap_or_default();
+        println!(
+            "seed {}: {:.0} % learned, {:.0} % held out, {:.1} s median, {:.1} s worst, {runs} runs median",
+            args.seed,
+            percent(self.learned, posts),
+            percent(held, of),
+            median.as_secs_f64(),
+            worst.as_secs_f64(),
+        );
+    }
+}
