@@ -50,7 +50,8 @@ fn place(kind: CommonKind, location: u32) -> (u8, u32) {
 
 impl Host for World {
     fn common(&mut self, kind: CommonKind, location: u32) -> Result<f64, Box<Diag>> {
-        Ok(self.commons.get(&place(kind, location)).copied().unwrap_or(EMPTY))
+        let at_start = f64::from(location % 7);
+        Ok(self.commons.get(&place(kind, location)).copied().unwrap_or(at_start))
     }
 
     fn set_common(
@@ -67,7 +68,7 @@ impl Host for World {
 
     fn clear_common(&mut self, kind: CommonKind, at: u32) -> Result<Option<Box<Diag>>, Box<Diag>> {
         let place = place(kind, at);
-        self.commons.remove(&place);
+        self.commons.insert(place, EMPTY);
         self.events.push(format!("clear {place:?}"));
         Ok(None)
     }
@@ -151,7 +152,7 @@ pub fn fight_over(case: &Case, oracle_fil: &str) -> Result<Agreed, String> {
     let program = fil_syntax::parse("case.fil", oracle_fil).program;
     let mut oracle = Oracle::new(&program, oracle_fil, own, FUEL);
     let wanted = oracle.run();
-    compare(ran, wanted, &world, &oracle, &machine)
+    compare(ran, wanted, &world, &oracle, &machine, &vocab)
 }
 
 fn read(cl: &str, vocab: &mut Vocabulary) -> Result<Vec<Record>, String> {
@@ -191,6 +192,7 @@ fn compare(
     world: &World,
     oracle: &Oracle<'_>,
     machine: &Interpreter,
+    vocab: &Vocabulary,
 ) -> Result<Agreed, String> {
     let events = &world.events;
     let ran = ran.map_err(|diag| (diag.code.number, line(&diag), diag.to_string()));
@@ -224,7 +226,7 @@ fn compare(
     }
     let Some((number, line)) = stopped else {
         warnings(&world.warnings, oracle.warnings(), 0)?;
-        values(oracle, machine)?;
+        values(oracle, machine, vocab)?;
         return Ok(Agreed::Done);
     };
     // Which names the failing line had read before it failed, and what it left in
@@ -246,10 +248,11 @@ fn warnings(real: &Warnings, wanted: &Warnings, except: u32) -> Result<(), Strin
     Err(format!("warnings\n machine {real:?}\n oracle  {wanted:?}"))
 }
 
-fn values(oracle: &Oracle<'_>, machine: &Interpreter) -> Result<(), String> {
+fn values(oracle: &Oracle<'_>, machine: &Interpreter, vocab: &Vocabulary) -> Result<(), String> {
     for (name, wanted) in oracle.values() {
         let text = machine.text(name).map(|text| Value::Text(text.to_string()));
-        let real = machine.number(name).map(Value::Number).or(text);
+        let word = machine.word(name).map(|id| Value::Minor(vocab.name(id).to_string()));
+        let real = machine.number(name).map(Value::Number).or(text).or(word);
         let shown = |value: Option<&Value>| value.map_or("unset".to_string(), Value::to_string);
         // A letter that no statement uses has no place in the machine.
         let unused = name.len() == 1 && real.is_none();

@@ -186,6 +186,17 @@ impl Record {
         }
     }
 
+    /// The vocabulary word that word `n` is: the major word as word 3, or a minor word.
+    pub fn vocabulary_word(&self, n: usize) -> Option<WordId> {
+        match n {
+            3 if self.has_major_code() => Some(self.major),
+            _ => match self.data_word(n)? {
+                Word::Minor(id) => Some(id),
+                _ => None,
+            },
+        }
+    }
+
     /// Class of word `n`: 0 nothing there, 1 number, 2 minor word, 3 text.
     pub fn class(&self, n: usize) -> u8 {
         match n {

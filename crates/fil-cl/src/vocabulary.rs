@@ -19,6 +19,11 @@ impl WordId {
     pub fn index(self) -> usize {
         self.0 as usize
     }
+
+    /// The id of an index that [`WordId::index`] gave.
+    pub fn from_index(index: u32) -> Self {
+        WordId(index)
+    }
 }
 
 /// Class bit: the word opens a statement.

@@ -132,6 +132,7 @@ pub fn read_block_into(
     loop {
         scan.blanks();
         if let Some(sign) = scan.message_sign(block) {
+            scan.refuse_words_in_message(sign)?;
             scan.at += sign - 1;
             block.comments.push(scan.rest());
             return Ok(());
@@ -174,6 +175,17 @@ impl Scan<'_> {
         }
         let sign = [&b"MSG("[..], b"!", b"* -"].into_iter().find(|sign| rest.starts_with(sign));
         sign.filter(|_| block.words.iter().all(|word| word.letter == b'N')).map(<[u8]>::len)
+    }
+
+    /// Refuses a message that other controls carry out as words: `! G0 Z-50.`, or words behind
+    /// `MSG("text")`.
+    fn refuse_words_in_message(&self, sign: usize) -> Result<(), Box<Diag>> {
+        let text = &self.text[self.at + sign..];
+        let has_words = match text.iter().rposition(|byte| *byte == b')') {
+            Some(end) if self.peek() == Some(b'M') => !text[end + 1..].trim_ascii().is_empty(),
+            _ => read_block(text, self.name, self.line).is_ok_and(|block| !block.words.is_empty()),
+        };
+        if has_words { Err(self.refuse(NcCode::NotAWord, self.at)) } else { Ok(()) }
     }
 
     /// `(comment)`.
@@ -300,6 +312,9 @@ mod tests {
             assert!(block.words.iter().all(|word| word.letter == b'N'), "{text}");
         }
         assert!(read_block(b"G1 MSG(a)", "test", 1).is_err());
+        for text in ["! G0 Z-50.", "!M5", "* - G0 Z-10.", "MSG(\"x\") G0 Z-50."] {
+            assert!(read_block(text.as_bytes(), "test", 1).is_err(), "{text}");
+        }
     }
 
     #[test]

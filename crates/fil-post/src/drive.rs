@@ -12,7 +12,7 @@ use crate::items::Items;
 use crate::no_effect;
 use crate::operation::End;
 use crate::operation::{POINT, Target};
-use crate::path::{Path, long_arc, tool_change, way_home};
+use crate::path::{Path, Statement, index, long_arc, tool_change, way_home};
 use crate::post::Post;
 use crate::site_word;
 use crate::words as word;
@@ -164,6 +164,9 @@ fn target(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<T
         Some(axis) => {
             let axis = word::goto::checked_axis(post, Vector3::from(axis))?;
             post.path.axis.in_doubt = false;
+            if post.path.is_moved_by(Statement::AuthorBlock) {
+                index::turns_by_points(post);
+            }
             axis
         }
         None if record.data.len() == MOTION[0] => {

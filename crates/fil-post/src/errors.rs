@@ -312,6 +312,14 @@ fil_diag::codes! {
         CoarseDigits = 590, Warning, "the tape is too coarse for the tolerance",
             "Each axis word is rounded to its last digit, and far from a rotary axis that moves the tip.",
             "Give a larger LINTOL or rotary.tolerance, or the axes more digits after the point.";
+        /// RAPTO beside CLEAR.
+        RaptoFromClear = 569, Warning, "the R level is CLEAR less RAPTO",
+            "RAPTO is measured from CLEAR toward the hole, as the help of Creo says: the tool travels between holes at CLEAR, and the feed begins at CLEAR less RAPTO above the hole. Earlier versions of filpost took RAPTO as the R level itself.",
+            "Nothing to do where that is meant; else set cycle.rapto = 1, by which RAPTO is the R level above the hole.";
+        /// Two tools of one offset.
+        SharedOffset = 570, Warning, "two tools with one length offset",
+            "The control has one table of length offsets for all tools, and OSETNO names the same offset for two tools: one of them is not as long as its offset says.",
+            "Give each tool an offset of its own; ignore this where both are the same holder, or are measured to one length.";
         /// Nothing keeps the tip on its line.
         Undivided = 591, Warning, "the tip leaves its line while the machine turns",
             "LINTOL / OFF or rotary.tolerance = 0 lets motions that turn the machine be one block each, as one at feed right behind a tool change is; all axes go evenly, and the tip goes along a curve.",
@@ -340,6 +348,18 @@ fil_diag::codes! {
         TapOfFedrat = 598, Warning, "tap at the feed of FEDRAT",
             "A tap moves by its lead for each turn of the spindle. CYCLE/TAP names no feed, so that of the FEDRAT before it is taken, which may be that of milling.",
             "Give CYCLE / TAP its own feed (MMPM, MMPR, TPI ...).";
+        /// A table turned by an author.
+        AuthorTurns = 568, Warning, "a block of an author turns a table",
+            "POSTN or INSERT has turned a table of the machine, and the points of the CL file behind it have no tool axis. The table stays where the block has turned it, and the points are written as they are; a point with a tool axis of its own turns it by that axis.",
+            "Nothing to do where the points count so; else turn the table back by a block, or by ROTABL with rotary.table_words.";
+        /// A tap without HIGH.
+        NotRigid = 558, Warning, "tap without HIGH on a machine with rigid tapping",
+            "The code of cycle.rigid_tap_mode (M29) brings the spindle in step with Z. It comes with CYCLE/TAP,HIGH; this tap is one of a floating holder.",
+            "Write CYCLE/TAP,HIGH where the tap is in a rigid holder, in the CL file or in a FIL section of CYCLE.";
+        /// Compensation without an offset.
+        NoDiameterOffset = 559, Warning, "cutter compensation without a diameter offset",
+            "CUTCOM names no offset, and tool.diameter_from_tool = 0 takes none from the tool: G41 or G42 is written without D. Some controls then take the tool in the spindle, others the last D or none.",
+            "Write CUTCOM/LEFT,n, or set tool.diameter_from_tool to 1; ignore this where the control takes the tool in the spindle.";
         /// Holes without a clearance.
         NoClearance = 599, Warning, "rapid to the start of the holes",
             "CYCLE names neither CLEAR nor RAPTO, and the machine has no clearance of its own (cycle.auto_clearance): the tool goes at rapid down to the start of each hole, and from hole to hole on that level.",

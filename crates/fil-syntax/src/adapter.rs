@@ -248,6 +248,7 @@ impl<'s, 'c> Adapter<'s, 'c> {
                 choose_assigned(&mut self.statement, equals);
             }
         }
+        call_nested_texts(&mut self.statement);
     }
 }
 
@@ -296,6 +297,39 @@ fn choose_assigned(statement: &mut [Placed<'_>], equals: usize) {
     } else if (slash || next.is_none()) && word.eq_ignore_ascii_case("MACRO") {
         *token = Token::Macro;
     }
+}
+
+/// Makes a definition in brackets, `(TEXT/CONVI,N,2)`, the call `TEXT(CONVI,N,2)`. A comma between
+/// its brackets tells it from a name TEXT that is divided.
+fn call_nested_texts(statement: &mut Vec<Placed<'_>>) {
+    let mut at = 0;
+    while at + 2 < statement.len() {
+        if let [(_, Token::Open, _), (_, Token::Name(word), _), (start, Token::Slash, end)] =
+            statement[at..at + 3]
+            && word.eq_ignore_ascii_case("TEXT")
+            && has_comma(&statement[at..])
+        {
+            statement[at] = statement[at + 1];
+            statement[at + 1] = (start, Token::Open, end);
+            statement.remove(at + 2);
+        }
+        at += 1;
+    }
+}
+
+/// True where a comma stands between the first bracket and the one that closes it, in no other.
+fn has_comma(from: &[Placed<'_>]) -> bool {
+    let mut depth = 0usize;
+    for (_, token, _) in from {
+        match token {
+            Token::Open => depth += 1,
+            Token::Close if depth <= 1 => return false,
+            Token::Close => depth -= 1,
+            Token::Comma if depth == 1 => return true,
+            _ => {}
+        }
+    }
+    false
 }
 
 /// Counts what a parser has to keep in mind at once: open brackets, and signs

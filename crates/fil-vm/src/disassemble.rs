@@ -28,6 +28,7 @@ fn name(module: &Module, reg: Reg) -> String {
     }
     match module.constants.iter().find(|(constant, _)| *constant == reg) {
         Some((_, Constant::Number(number))) => format!("{number}"),
+        Some((_, Constant::Word(id))) => format!("#{}", id.index()),
         Some((_, Constant::Text(text))) => format!("'{text}'"),
         None if reg >= FIRST_TEMPORARY => format!("t{}", reg - FIRST_TEMPORARY),
         None => format!("r{reg}"),

@@ -113,8 +113,10 @@ pub(crate) struct Template {
 /// Constants and texts that a machine loads into its registers before it runs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Constant {
-    /// A number.
+    /// A number; 999999 is EMPTY.
     Number(f64),
+    /// ICODEF of a word.
+    Word(WordId),
     /// A text.
     Text(String),
 }

@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-/// The EMPTY value of numbers: what a post shows for "nothing here".
+use fil_cl::WordId;
+
+/// The EMPTY value as a number, as commons and comparisons have it: "nothing here".
 pub const EMPTY: f64 = 999_999.0;
 
 /// A text in the [`Texts`] arena.
@@ -16,9 +18,20 @@ pub enum Value {
     Number(f64),
     /// A text.
     Text(TextId),
+    /// A word of a record. It compares as its code, and is no quantity.
+    Word(WordId),
+    /// EMPTY: nothing here. It compares as 999999, and is no quantity.
+    Empty,
     /// A name that was never set. It is read as EMPTY, with a warning, so it
     /// is kept apart from a name that was set to EMPTY on purpose.
     Unset,
+}
+
+impl Value {
+    /// The value of a number of the post, where 999999 is EMPTY.
+    pub(crate) fn of(number: f64) -> Self {
+        if number == EMPTY { Value::Empty } else { Value::Number(number) }
+    }
 }
 
 /// A value as registers and arrays keep it, in 8 bytes: a number as it is, all
@@ -33,8 +46,14 @@ impl Slot {
     /// A name that was never set.
     pub const UNSET: Slot = Slot(0x7FF8_0001_0000_0000);
 
+    /// EMPTY.
+    const EMPTY: Slot = Slot(0x7FF8_0003_0000_0000);
+
     /// Upper half of a text; the lower half is its id.
     const TEXT: u64 = 0x7FF8_0002;
+
+    /// Upper half of a word; the lower half is its id.
+    const WORD: u64 = 0x7FF8_0004;
 
     /// The number; a NaN where there is none.
     #[inline]
@@ -47,6 +66,8 @@ impl Slot {
     pub fn value(self) -> Value {
         match self {
             Slot::UNSET => Value::Unset,
+            Slot::EMPTY => Value::Empty,
+            Slot(bits) if bits >> 32 == Slot::WORD => Value::Word(WordId::from_index(bits as u32)),
             Slot(bits) if bits >> 32 == Slot::TEXT => Value::Text(TextId(bits as u32)),
             _ => Value::Number(self.number()),
         }
@@ -66,6 +87,8 @@ impl From<Value> for Slot {
         match value {
             Value::Number(number) => Slot::from(number),
             Value::Text(id) => Slot(Slot::TEXT << 32 | u64::from(id.0)),
+            Value::Word(id) => Slot(Slot::WORD << 32 | id.index() as u64),
+            Value::Empty => Slot::EMPTY,
             Value::Unset => Slot::UNSET,
         }
     }
@@ -151,7 +174,10 @@ mod tests {
             assert_eq!(slot.value(), Value::Number(number));
             assert_eq!(slot.number().to_bits(), number.to_bits());
         }
-        for value in [Value::Unset, Value::Text(TextId(0)), Value::Text(TextId(u32::MAX))] {
+        let ids = [0, 1, u32::MAX];
+        let words = ids.map(|index| Value::Word(WordId::from_index(index)));
+        let texts = ids.map(|id| Value::Text(TextId(id)));
+        for value in [Value::Unset, Value::Empty].into_iter().chain(words).chain(texts) {
             assert_eq!(Slot::from(value).value(), value);
             assert!(Slot::from(value).number().is_nan());
         }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use fil_syntax::tree::{Expr, ExprKind, Name, Span, Stmt, StmtKind, Target};
 
 use super::Oracle;
-use super::value::{Class, EMPTY, Fault, Rec, Value, Word};
+use super::value::{Class, Fault, Rec, Value, Word};
 
 /// Where to go after a statement.
 enum Flow {
@@ -96,7 +96,10 @@ impl Oracle<'_> {
             }
             StmtKind::IfSign { value, labels } => {
                 let [negative, zero, positive] = &**labels;
-                let value = self.number(value)?;
+                let value = self.eval(value)?;
+                let Some(value) = self.plain(&value) else {
+                    return self.fault(Class::WrongType, stmt.span);
+                };
                 let label = if value < 0.0 {
                     negative
                 } else if value > 0.0 {
@@ -249,7 +252,7 @@ impl Oracle<'_> {
         self.written(values, span)
     }
 
-    /// Values as one text; EMPTY must not get on the tape.
+    /// Values as one text; neither EMPTY nor a word is a number of it.
     fn written(
         &self,
         values: impl IntoIterator<Item = Value>,
@@ -257,7 +260,7 @@ impl Oracle<'_> {
     ) -> Result<String, Fault> {
         let mut text = String::new();
         for value in values {
-            if value == Value::Number(EMPTY) {
+            if matches!(value, Value::Empty | Value::Minor(_)) {
                 return self.fault(Class::WrongType, span);
             }
             text += &written(value);
@@ -285,7 +288,8 @@ impl Oracle<'_> {
             data.push(match &arg.kind {
                 ExprKind::Name(name) if !self.is_variable(name) => Word::Minor(name.clone()),
                 _ => match self.eval(arg)? {
-                    Value::Number(EMPTY) => Word::Empty,
+                    Value::Empty => Word::Empty,
+                    Value::Minor(name) => Word::Minor(name),
                     Value::Number(number) => Word::Number(number),
                     Value::Text(text) => Word::Text(text),
                 },
@@ -330,6 +334,7 @@ fn written(value: Value) -> String {
         Value::Text(text) => text,
         // Adding 0 makes a -0 plain.
         Value::Number(number) => (number + 0.0).to_string(),
+        Value::Minor(_) | Value::Empty => String::new(),
     }
 }
 

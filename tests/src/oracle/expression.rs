@@ -10,7 +10,7 @@ impl Oracle<'_> {
     /// The value of an expression.
     pub(super) fn eval(&mut self, expr: &Expr) -> Result<Value, Fault> {
         match &expr.kind {
-            ExprKind::Number(number) => Ok(Value::Number(*number)),
+            ExprKind::Number(number) => Ok(Value::of(*number)),
             ExprKind::Text(text) => Ok(Value::Text(text.clone())),
             ExprKind::Name(name) => Ok(self.read(name, expr.span)),
             ExprKind::Call { name, args } => self.call(&name.text, args, expr.span),
@@ -27,7 +27,17 @@ impl Oracle<'_> {
     pub(super) fn number(&mut self, expr: &Expr) -> Result<f64, Fault> {
         match self.eval(expr)? {
             Value::Number(number) => Ok(number),
-            Value::Text(_) => self.fault(Class::WrongType, expr.span),
+            _ => self.fault(Class::WrongType, expr.span),
+        }
+    }
+
+    /// The number that a value compares as; `None` for a text.
+    pub(super) fn plain(&self, value: &Value) -> Option<f64> {
+        match value {
+            Value::Number(number) => Some(*number),
+            Value::Minor(word) => Some(self.code(word)),
+            Value::Empty => Some(EMPTY),
+            Value::Text(_) => None,
         }
     }
 
@@ -50,7 +60,7 @@ impl Oracle<'_> {
     fn or_empty(&mut self, value: Option<Value>, span: Span) -> Value {
         value.unwrap_or_else(|| {
             self.warn(NEVER_SET, span);
-            Value::Number(EMPTY)
+            Value::Empty
         })
     }
 
@@ -84,9 +94,11 @@ impl Oracle<'_> {
             BinaryOp::Ne => Some(!self.equal(&one, &other, span)?),
             BinaryOp::Lt | BinaryOp::Le | BinaryOp::Gt | BinaryOp::Ge => {
                 let order = match (&one, &other) {
-                    (Value::Number(one), Value::Number(other)) => one.partial_cmp(other),
                     (Value::Text(one), Value::Text(other)) => Some(one.cmp(other)),
-                    _ => None,
+                    _ => match (self.plain(&one), self.plain(&other)) {
+                        (Some(one), Some(other)) => one.partial_cmp(&other),
+                        _ => None,
+                    },
                 };
                 match order {
                     None => return self.fault(Class::WrongType, span),
@@ -117,12 +129,12 @@ impl Oracle<'_> {
     /// Text and number can't be compared, but EMPTY equals nothing but EMPTY.
     pub(super) fn equal(&self, one: &Value, other: &Value, span: Span) -> Result<bool, Fault> {
         match (one, other) {
-            (Value::Number(number), Value::Text(_)) | (Value::Text(_), Value::Number(number))
-                if *number != EMPTY =>
-            {
-                self.fault(Class::WrongType, span)
-            }
-            _ => Ok(one == other),
+            (Value::Text(one), Value::Text(other)) => Ok(one == other),
+            (Value::Empty, Value::Text(_)) | (Value::Text(_), Value::Empty) => Ok(false),
+            _ => match (self.plain(one), self.plain(other)) {
+                (Some(one), Some(other)) => Ok(one == other),
+                _ => self.fault(Class::WrongType, span),
+            },
         }
     }
 
@@ -136,17 +148,22 @@ impl Oracle<'_> {
         }
         match (name, args) {
             ("ICODEF", [Expr { kind: ExprKind::Name(word) | ExprKind::Text(word), .. }]) => {
-                let id = self.vocab.intern(word);
-                Ok(Value::Number(self.vocab.code(id)))
+                self.vocab.intern(word);
+                Ok(Value::Minor(word.clone()))
             }
             ("LNTHF", [text]) => match self.eval(text)? {
                 Value::Text(text) => Ok(Value::Number(text.chars().count() as f64)),
-                Value::Number(_) => self.fault(Class::WrongType, span),
+                _ => self.fault(Class::WrongType, span),
             },
             ("POSTF", args) => self.postf(args, span),
             _ => {
-                let numbers: Vec<f64> =
-                    args.iter().map(|arg| self.number(arg)).collect::<Result<_, _>>()?;
+                let values: Vec<Value> =
+                    args.iter().map(|arg| self.eval(arg)).collect::<Result<_, _>>()?;
+                let number = |value: &Value| match value {
+                    Value::Number(number) => Ok(*number),
+                    _ => self.fault(Class::WrongType, span),
+                };
+                let numbers: Vec<f64> = values.iter().map(number).collect::<Result<_, _>>()?;
                 match functions::call(name, &numbers) {
                     Some(Ok(number)) => Ok(Value::Number(number)),
                     Some(Err(class)) => self.fault(class, span),

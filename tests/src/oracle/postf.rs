@@ -14,11 +14,14 @@ impl Oracle<'_> {
         }
         let mut numbers = Vec::new();
         for (index, value) in values.iter().enumerate() {
-            match value {
-                Value::Number(number) => numbers.push(*number),
+            // What a common keeps and what is looked for may be EMPTY or a word.
+            let may_be_word = matches!((numbers.first(), index), (Some(2.0), 3) | (Some(9.0), 2));
+            match (value, self.plain(value)) {
+                (Value::Number(number), _) => numbers.push(*number),
                 // The new word of POSTF(8) is the only argument that may be a text.
-                Value::Text(_) if index == 2 && numbers[0] == 8.0 => numbers.push(EMPTY),
-                Value::Text(_) => return self.fault(Class::WrongType, span),
+                _ if index == 2 && numbers[0] == 8.0 => numbers.push(EMPTY),
+                (_, Some(number)) if may_be_word => numbers.push(number),
+                _ => return self.fault(Class::WrongType, span),
             }
         }
         let result = match numbers.as_slice() {
@@ -41,7 +44,7 @@ impl Oracle<'_> {
             [24.0, on] => self.trace(*on),
             _ => Err(Class::BadPostf),
         };
-        result.map(Value::Number).or_else(|class| self.fault(class, span))
+        result.map(Value::of).or_else(|class| self.fault(class, span))
     }
 
     fn record(&self) -> Result<&Rec, Class> {
@@ -49,13 +52,15 @@ impl Oracle<'_> {
     }
 
     fn get_common(&self, kind: f64, location: f64) -> Result<f64, Class> {
-        Ok(self.commons.get(&place(kind, location)?).copied().unwrap_or(EMPTY))
+        let (kind, location) = place(kind, location)?;
+        let at_start = f64::from(location % 7);
+        Ok(self.commons.get(&(kind, location)).copied().unwrap_or(at_start))
     }
 
     fn set_common(&mut self, kind: f64, location: f64, value: f64) -> Result<f64, Class> {
         let place = place(kind, location)?;
         if value == EMPTY {
-            self.commons.remove(&place);
+            self.commons.insert(place, EMPTY);
             self.events.push(format!("clear {place:?}"));
         } else {
             self.commons.insert(place, value);
@@ -84,6 +89,7 @@ impl Oracle<'_> {
         let number = match n {
             1 => f64::from(record.number),
             2 => f64::from(record.kind),
+            3 if record.opens_with_word() => return Ok(Value::Minor(record.major)),
             3 => self.third_word(&record),
             _ => match record.data.get(n - 4) {
                 None => {
@@ -92,11 +98,11 @@ impl Oracle<'_> {
                 }
                 Some(Word::Empty) => EMPTY,
                 Some(Word::Number(number)) => *number,
-                Some(Word::Minor(name)) => self.code(name),
+                Some(Word::Minor(name)) => return Ok(Value::Minor(name.clone())),
                 Some(Word::Text(text)) => return Ok(Value::Text(text.clone())),
             },
         };
-        Ok(Value::Number(number))
+        Ok(Value::of(number))
     }
 
     /// A minor word stays one when the value is the code of a minor word.
@@ -109,7 +115,8 @@ impl Oracle<'_> {
         let was_minor = matches!(record.data[n - 4], Word::Minor(_));
         let word = match value {
             Value::Text(text) => Word::Text(text.clone()),
-            Value::Number(EMPTY) => Word::Empty,
+            Value::Minor(name) => Word::Minor(name.clone()),
+            Value::Empty => Word::Empty,
             Value::Number(number) => match self.vocab.minor_with_code(*number) {
                 Some(id) if was_minor => Word::Minor(self.vocab.name(id).to_string()),
                 _ => Word::Number(*number),

@@ -17,6 +17,17 @@ pub enum Value {
     Number(f64),
     /// A text.
     Text(String),
+    /// A vocabulary word by its name.
+    Minor(String),
+    /// EMPTY.
+    Empty,
+}
+
+impl Value {
+    /// The value of a number of the post.
+    pub fn of(number: f64) -> Value {
+        if number == EMPTY { Value::Empty } else { Value::Number(number) }
+    }
 }
 
 /// A number that no two different values share the writing of: events and
@@ -30,6 +41,8 @@ impl std::fmt::Display for Value {
         match self {
             Value::Number(number) => f.write_str(&exact(*number)),
             Value::Text(text) => write!(f, "'{text}'"),
+            Value::Minor(word) => f.write_str(word),
+            Value::Empty => f.write_str(&exact(EMPTY)),
         }
     }
 }

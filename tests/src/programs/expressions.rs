@@ -67,11 +67,11 @@ impl Program<'_, '_> {
             5 => format!("-({})", self.number(scope, depth - 1)),
             6 => format!("({})**{}", self.number(scope, depth - 1), self.dice.below(4)),
             7 | 8 => self.function(scope, depth),
-            9 => self.element(scope, depth),
+            9 if self.dice.once_in(12) => self.element(scope, depth),
             10 if scope.in_section => self.word(scope),
             10 | 11 => self.postf_value(scope, depth),
             12 => match self.dice.below(3) {
-                0 => format!("ICODEF({})", self.dice.pick(WORDS)),
+                0 if self.dice.once_in(40) => format!("ICODEF({})", self.dice.pick(WORDS)),
                 1 => format!("LNTHF({})", self.text(1)),
                 _ => format!("({})", self.condition(scope, 0)),
             },
@@ -126,13 +126,14 @@ impl Program<'_, '_> {
                 format!("POSTF(9,{},ICODEF({word}))", 1 + self.dice.below(7))
             }
             3 if self.dice.once_in(6) => format!("POSTF(7,{})", self.number(scope, 1)),
-            _ => format!("POSTF(7,{})", 1 + self.dice.below(9)),
+            4 if self.dice.once_in(6) => format!("POSTF(7,{})", 1 + self.dice.below(9)),
+            _ => format!("POSTF(7,{})", 1 + self.dice.below(2)),
         }
     }
 
     fn postf_value(&mut self, scope: Scope, depth: usize) -> String {
         match self.dice.below(4) {
-            0 => "POSTF(4)".to_string(),
+            0 if self.dice.once_in(40) => "POSTF(4)".to_string(),
             1 if self.dice.once_in(40) => {
                 format!("POSTF(1,{},486)", self.number(scope, depth - 1))
             }
@@ -158,6 +159,15 @@ impl Program<'_, '_> {
             1 if self.dice.once_in(12) => self.name(scope) + ".EQ." + &self.text(0),
             2 if self.dice.once_in(10) => self.name(scope),
             3 => format!("{}.EQ.POSTF(4)", self.name(scope)),
+            4 if scope.in_section => {
+                let word = self.dice.pick(WORDS);
+                format!("POSTF(7,{}){relation}ICODEF({word})", 3 + self.dice.below(5))
+            }
+            5 => format!(
+                "POSTF(1,{},{}){relation}POSTF(4)",
+                1 + self.dice.below(3),
+                480 + self.dice.below(4)
+            ),
             _ => format!("{}{relation}{}", self.number(scope, 1), self.number(scope, 1)),
         }
     }

@@ -127,7 +127,7 @@ impl<'d, 'b> Program<'d, 'b> {
     /// Gives most names a value, so that few are EMPTY.
     fn preset(&mut self) {
         for name in NUMBERS {
-            if !self.dice.once_in(4) {
+            if !self.dice.once_in(40) {
                 let value = self.literal();
                 self.line(&format!("{name}={value}"));
             }
@@ -146,7 +146,7 @@ impl<'d, 'b> Program<'d, 'b> {
         for index in 0..count {
             let separator = if index == 0 { '/' } else { ',' };
             let _ = write!(head, "{separator}P{number}{index}");
-            if self.dice.once_in(2) {
+            if !self.dice.once_in(12) {
                 let default = self.literal();
                 let _ = write!(head, "={default}");
             }

@@ -18,6 +18,8 @@ const MAY_SHARE: &[(&str, &str)] = &[
     ("a preset of the axes", "the spindle speed limit"),
     ("a preset of the axes", "the cycle of a thread"),
     ("deep drilling", "chip breaking"),
+    // A shop stops at each OPSTOP.
+    ("a stop", "an optional stop"),
     ("a hole", "a hole by a live tool"),
     ("deep drilling", "a hole by a live tool"),
     ("chip breaking", "a hole by a live tool"),

@@ -131,7 +131,7 @@ fn leader(commons: &Commons, found: &mut Vec<Diag>) {
     }
 }
 
-/// A message stands between parentheses, or behind a semicolon to the end of its line.
+/// A message stands between parentheses or brackets, or behind a semicolon to the end of its line.
 fn message(commons: &Commons, found: &mut Vec<Diag>) {
     let open = commons.read(loc::MESSAGE_OUT_CHAR).unwrap_or('(');
     let close = commons.read(loc::MESSAGE_IN_CHAR).unwrap_or(')');
@@ -141,10 +141,10 @@ fn message(commons: &Commons, found: &mut Vec<Diag>) {
         (';', _) if end == Some(';') => found.push(contradiction(
             "message.out_char is `;`, which ends blocks (tape.end_of_block_char)".into(),
         )),
-        ('(', ')') | (';', _) => {}
+        ('(', ')') | ('[', ']') | (';', _) => {}
         _ => found.push(contradiction(format!(
             "message.out_char is `{open}` and message.in_char `{close}`, and a control has a \
-             comment between ( and ), or behind ; alone"
+             comment between ( and ) or [ and ], or behind ; alone"
         ))),
     }
     let goes_on = commons.read(loc::TAPE_CONTINUATION_CHAR);

@@ -164,7 +164,7 @@ fn contradictions_are_found() {
         "seqno.align=1\ntape.align_char=O",
         "message.out_char=/",
         "message.out_char=G",
-        "message.out_char=[",
+        "message.out_char=[\nmessage.in_char=)",
         "message.out_char=-",
         "message.out_char=:",
         "message.out_char=)",

@@ -16,6 +16,8 @@ pub(crate) struct Marks {
     end: Option<u8>,
     align: Option<u8>,
     leader: Option<u8>,
+    /// What opens and closes a message in place of parentheses.
+    message: Option<[u8; 2]>,
 }
 
 impl Marks {
@@ -31,12 +33,16 @@ impl Marks {
             end: mark("tape.end_of_block_char").filter(|_| has("tape.end_of_block", 2)),
             align: mark("tape.align_char").filter(|_| has("seqno.align", 1)),
             leader: mark("tape.leader_char").filter(|_| leads),
+            message: match (mark("message.out_char"), mark("message.in_char")) {
+                (Some(open @ b'['), Some(close @ b']')) => Some([open, close]),
+                _ => None,
+            },
         }
     }
 
     /// A line with the marks that the reader of blocks knows; bytes keep their places.
     pub(crate) fn read<'t>(&self, line: &'t [u8]) -> Cow<'t, [u8]> {
-        if let Marks { skip: None, end: None, align: None, leader: None } = self {
+        if let Marks { skip: None, end: None, align: None, leader: None, message: None } = self {
             return Cow::Borrowed(line);
         }
         let is_leader = |leader: u8| !line.is_empty() && line.iter().all(|byte| *byte == leader);
@@ -58,8 +64,23 @@ impl Marks {
         if numbered && self.align.is_some() && read.get(first).copied() == self.align {
             read[first] = NUMBER;
         }
+        if let Some(marks) = self.message {
+            enclose_message(&mut read, marks);
+        }
         Cow::Owned(read)
     }
+}
+
+/// Gives the message of a line its parentheses; those that it holds become blanks.
+fn enclose_message(line: &mut [u8], [open, close]: [u8; 2]) {
+    let Some(first) = line.iter().position(|byte| *byte == open) else { return };
+    let Some(length) = line[first..].iter().position(|byte| *byte == close) else { return };
+    for byte in &mut line[first..first + length] {
+        if matches!(*byte, b'(' | b')') {
+            *byte = b' ';
+        }
+    }
+    (line[first], line[first + length]) = (b'(', b')');
 }
 
 #[cfg(test)]
@@ -68,14 +89,20 @@ mod tests {
 
     #[test]
     fn marks_become_those_of_every_control() {
-        let marks =
-            Marks { skip: Some(b'*'), end: Some(b'$'), align: Some(b':'), leader: Some(b'.') };
+        let marks = Marks {
+            skip: Some(b'*'),
+            end: Some(b'$'),
+            align: Some(b':'),
+            leader: Some(b'.'),
+            message: Some(*b"[]"),
+        };
         for (line, read) in [
             ("*:20 T1 M6$", "/N20 T1 M6"),
             (":20 T1 M6$", "N20 T1 M6"),
             ("N20 X1.", "N20 X1."),
             ("G1 X1. (COST 5$)$", "G1 X1. (COST 5$)"),
             ("....", ""),
+            ("N5 [TURN (ALL) PARTS] M0", "N5 (TURN  ALL  PARTS) M0"),
         ] {
             assert_eq!(marks.read(line.as_bytes()), read.as_bytes(), "{line}");
         }

@@ -95,9 +95,11 @@ impl<C: Steps> Verifier<'_, C> {
         let of_clamps =
             |code: &u32| self.settings.frame_clamps().is_some_and(|codes| codes.contains(code));
         let Some(code) = code.filter(|code| !of_clamps(code)) else { return };
+        // The machine's own blocks may stand before it or after it.
+        let last = self.last_line();
         self.pass_own();
         let next = self.nc.get(self.next).map_or(u32::MAX, |event| event.line());
-        self.auxiliaries.ask(code, cl_line, [self.last_line(), next]);
+        self.auxiliaries.ask(code, cl_line, [last, next]);
     }
 
     /// An auxiliary function may stand between the last motion and the next.

@@ -250,7 +250,7 @@ impl<C: Steps> Verifier<'_, C> {
         let mut raise = known && self.at.linear[2] < raised - slack[2];
         // A cycle of the control returns to where it began, which another cycle has left low.
         let of_control = if raise { raised } else { self.at.linear[2] };
-        let of_control = if known { of_control } else { f64::INFINITY };
+        let mut of_control = if known { of_control } else { f64::INFINITY };
         if raise && !levels.single {
             self.memory.initial =
                 Some(self.memory.initial.map_or(raised, |initial| initial.max(raised)));
@@ -297,6 +297,10 @@ impl<C: Steps> Verifier<'_, C> {
                 return Err((found.line, self.spell_level("the R level", to[2], levels.clear)));
             }
             raise &= !near(to[2], raised, 2);
+            // The cycle begins on the level to return to.
+            if lower && hole.retract.is_some_and(|above| above > 0.0) && near(to[2], raised, 2) {
+                of_control = raised;
+            }
             // Z counts from another zero than before the cycle.
             if !self.known[2] && near(to[2], raised, 2) {
                 self.memory.initial = Some(raised);
@@ -335,7 +339,9 @@ impl<C: Steps> Verifier<'_, C> {
         levels: Levels,
         reached: f64,
     ) -> Result<(), (u32, String)> {
-        if hole.kind == CycleKind::Deep {
+        let in_cycle = self.next_move().is_some_and(|next| next.in_cycle);
+        let kind = if in_cycle { self.settings.kind_in_cycle(hole.kind) } else { hole.kind };
+        if kind == CycleKind::Deep {
             let up = self.level(cl_line, levels.clear, "the retract between pecks")?;
             if up.course != Course::Rapid {
                 return Err((up.line, format!("{} between pecks", self.spell_move(&up))));
@@ -349,20 +355,20 @@ impl<C: Steps> Verifier<'_, C> {
         let gap = back.to.linear[2] - reached;
         // How far a control comes back by itself is a parameter of it, or a word of its cycle.
         let said = match back.in_cycle {
-            true => self.settings.cycle_peck_gap(hole.kind, levels.clear - levels.at[2]),
+            true => self.settings.cycle_peck_gap(kind, levels.clear - levels.at[2]),
             false => Some(self.settings.peck_gap()),
         };
         let peck_gap = said.unwrap_or(self.settings.peck_gap());
         let right = said.map_or(gap > 0.0, |said| (gap - said).abs() <= 2.0 * slack);
         let above = (back.to.linear[2] - levels.clear).abs() <= slack && gap <= peck_gap + slack;
-        let lifts = back.in_cycle && self.settings.lifts_at_feed() && hole.kind != CycleKind::Deep;
+        let lifts = back.in_cycle && self.settings.lifts_at_feed() && kind != CycleKind::Deep;
         let course = back.course == Course::Rapid || (lifts && back.course == Course::Feed);
         if course && (right || above) {
             self.take(cl_line, &back);
             self.next += 1;
             return Ok(());
         }
-        if hole.kind == CycleKind::Deep && levels.clear - reached <= peck_gap + slack {
+        if kind == CycleKind::Deep && levels.clear - reached <= peck_gap + slack {
             return Ok(());
         }
         let message =

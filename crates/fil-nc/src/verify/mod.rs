@@ -61,6 +61,7 @@ mod zones;
 
 use fil_cl::Reader;
 use fil_diag::Diag;
+use fil_machine::locations::{self as loc, CycleRapto};
 use fil_machine::{Commons, Unit};
 
 use crate::dialect::{Family, Habit};
@@ -121,7 +122,9 @@ pub struct Allowed {
 /// next to nothing in common with the CL file.
 pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let settings = Settings::new(check.commons, check.allowed.tolerance)?;
-    let path = ClPath::new(check.cl, check.cl_name, settings.input_shift());
+    let rapto_is_level = check.commons.read(loc::CYCLE_RAPTO) == CycleRapto::AboveTheHole;
+    let path = ClPath::new(check.cl, check.cl_name, settings.input_shift())
+        .with_rapto_as_level(rapto_is_level);
     let path = path.on_machine(settings.shift_along(), settings.matrix_leaves_axis());
     let path = path.with_frame_words(settings.frame_words());
     let path = path.clear_of_threads_by(settings.thread_clearance());

@@ -428,7 +428,7 @@ impl Expected {
         self.tool.number = settings.calls_tools().then_some(tool);
         self.tool.loaded = Some(tool);
         self.tool.loaded_offset = Some(offset);
-        if settings.calls_offsets() {
+        if settings.calls_offsets() || settings.calls_named_offsets() && offset != tool {
             self.length.require(Some(offset), Due::WithZ);
         } else if settings.has_edges() {
             self.length.require(Some(offset), Due::Now);

@@ -40,6 +40,8 @@ mod waiting;
 pub mod word_address;
 mod writing;
 
+use std::collections::BTreeMap;
+
 use fil_diag::Result;
 use fil_machine::address::no_address;
 use fil_machine::commons::EMPTY;
@@ -91,7 +93,7 @@ pub struct TipOffset {
 }
 
 /// Tools that were changed and prepared.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Tools {
     /// Tool changes that were written.
     pub changes: u32,
@@ -101,6 +103,8 @@ pub(crate) struct Tools {
     pub first: Option<i64>,
     /// The work offset that SET/OFSETL named last, itself without a number.
     pub work_offset: Option<Option<i64>>,
+    /// The first tool of each length offset.
+    pub of_offset: BTreeMap<i64, i64>,
 }
 
 /// The output side of the post.

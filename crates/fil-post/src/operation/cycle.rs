@@ -50,6 +50,8 @@ pub struct Cycle {
     pub clear: f64,
     /// Level above the hole's start to retract to; 0 is the level before the cycle.
     pub retract: Option<f64>,
+    /// The tool goes down to the level of `retract` before the first hole: RAPTO from CLEAR.
+    pub goes_down: bool,
     /// Peck.
     pub step: Option<f64>,
     /// Dwell at the bottom, seconds.

@@ -404,8 +404,10 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
     // The control returns to where it stood when its cycle began, which is lower than the level
     // before ours where another cycle has left the tool on its R level.
     let of_control = cycle.in_force.map(|last| last.initial).or(here);
-    let level = if below { wanted } else { of_control.or(initial).unwrap_or(wanted) };
-    if below || unknown {
+    let goes_down = cycle.goes_down && here.is_some_and(|here| above(here, wanted) > rounding);
+    let moves = below || goes_down;
+    let level = if moves { wanted } else { of_control.or(initial).unwrap_or(wanted) };
+    if moves || unknown {
         words::cancel(&mut post.control)?;
         cycle.in_force = None;
         let (across, motion) = (expand::without(hole.along), Motion::along(hole.along, wanted));
@@ -425,7 +427,7 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
     // A raise over a high hole is no lower level to return to for the holes behind it.
     cycle.initial = match initial {
         Some(initial) if above(level, initial) <= 0.0 => Some(initial),
-        None if !(below || unknown) => None,
+        None if !(moves || unknown) => None,
         _ => Some(level),
     };
     hole.initial = level;

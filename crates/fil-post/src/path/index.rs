@@ -1,6 +1,7 @@
 //! A table that turns to an angle by itself (ROTABL), and what the points after it count in.
 
 use fil_diag::Result;
+use fil_machine::axes::AXES;
 use fil_machine::axis_chain::Carries;
 use fil_machine::locations::{self as loc, RotaryTableWords};
 use nalgebra::{Matrix3x4, Vector3};
@@ -36,7 +37,8 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
     }
     let points_stay =
         post.control.commons.read(loc::ROTARY_TABLE_WORDS) == RotaryTableWords::PointsStay;
-    let moved = if points_stay { Some(under_points(post, angles)?) } else { None };
+    let moved =
+        if points_stay { Some(under_points(post, angles, Statement::Table)?) } else { None };
     post.path.interrupt();
     cycle::cancel(&mut post.control)?;
     let motion = Motion::along(index + 3, to);
@@ -57,14 +59,58 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
     Ok(())
 }
 
+/// A table that a block of an author has turned stays where it is: the points of the file behind
+/// it, which have no tool axis of their own, are written as they are. What turns the machine by
+/// itself (MULTAX/ON, tilted work planes, tool center point control), or moves the points, goes on as
+/// before.
+pub(super) fn stay_turned(post: &mut Post, stood: [Option<f64>; AXES]) {
+    let tables = &post.control.tables;
+    let turned = |index: usize| {
+        let rotary = tables.chain().rotaries[index].as_ref();
+        let is_table = rotary.is_some_and(|rotary| rotary.carries == Carries::Table);
+        is_table && stands_elsewhere(post, stood, index + 3)
+    };
+    let is_turned = turned(0) || turned(1);
+    let by_points = post.path.multax == Some(true) || post.path.axis.given != Vector3::z();
+    if !is_turned || by_points || tables.tip_output || tables.frame_output || tables.mills() {
+        return;
+    }
+    let angles = position::on_tape(post);
+    let Ok(transformation) = under_points(post, angles, Statement::AuthorBlock) else { return };
+    post.path.transformation = transformation;
+    post.path.rotary = Some(angles);
+    post.warn(
+        PostCode::AuthorTurns,
+        "a block of an author has turned a table: it stays there, and the points behind it are \
+         written as they are"
+            .to_string(),
+    );
+}
+
+/// True for an axis that is known to stand elsewhere than before.
+fn stands_elsewhere(post: &Post, stood: [Option<f64>; AXES], number: usize) -> bool {
+    let stands = post.control.stands(number);
+    stands.is_some() && stands != stood[number]
+}
+
+/// A point has a tool axis of its own, and turns the table by it.
+#[cold]
+pub(crate) fn turns_by_points(post: &mut Post) {
+    post.path.transformation = None;
+    let message = "a point with a tool axis of its own turns the table that a block of an author \
+                   has turned";
+    post.warn(PostCode::AuthorTurns, message.to_string());
+}
+
 /// Brings points of the machine into the part, with the tables at these angles; `None` where
 /// they stand at zero.
 ///
 /// # Errors
 /// TRANS, ORIGIN or TRACUT moves the points too; a head that leans the tool.
-fn under_points(post: &Post, angles: [f64; 2]) -> Result<Option<Transformation>> {
+fn under_points(post: &Post, angles: [f64; 2], of: Statement) -> Result<Option<Transformation>> {
     let transformation = post.path.transformation.as_ref();
-    let moves = transformation.is_some_and(|it| it.of != Statement::Table);
+    let by_table = [Statement::Table, Statement::AuthorBlock];
+    let moves = transformation.is_some_and(|it| !by_table.contains(&it.of));
     if moves || post.control.tables.input_shift() != Vector3::zeros() {
         return PostCode::WordForm.err(
             "ROTABL: TRANS, ORIGIN or the machine moves the points too, in an order left open",
@@ -85,5 +131,5 @@ fn under_points(post: &Post, angles: [f64; 2]) -> Result<Option<Transformation>>
     let columns =
         [at(1.0, 0.0, 0.0) - zero, at(0.0, 1.0, 0.0) - zero, at(0.0, 0.0, 1.0) - zero, zero.coords];
     let matrix = Matrix3x4::from_columns(&columns);
-    Ok(Some(Transformation { matrix, turns_axis: true, of: Statement::Table }))
+    Ok(Some(Transformation { matrix, turns_axis: true, of }))
 }

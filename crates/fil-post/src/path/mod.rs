@@ -20,7 +20,7 @@ mod frame_end;
 mod functions_of_others;
 pub mod height;
 pub mod hole;
-mod index;
+pub(crate) mod index;
 pub(crate) mod linear;
 pub mod linearization;
 pub(crate) mod long_arc;

@@ -92,6 +92,7 @@ fn write_of_others(post: &mut Post, operation: Operation) -> Result<()> {
         if !by_words {
             rotary::follow(post);
         }
+        index::stay_turned(post, stood);
     }
     Ok(())
 }

@@ -27,6 +27,8 @@ pub enum Statement {
     NamedFrame,
     /// ROTABL, which has turned a table under the points.
     Table,
+    /// A block of an author, which has turned a table under the points.
+    AuthorBlock,
 }
 
 impl Transformation {

@@ -26,7 +26,7 @@ const PRESSURES: [(WordId, Pressure); 3] =
 /// Switches the coolant.
 ///
 /// # Errors
-/// A kind of coolant that is not known, a pressure of one that has none.
+/// A kind of coolant that is not known.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let pressure = PRESSURES.iter().find(|(word, _)| items.flag(*word)).map(|(_, found)| *found);
     let off = items.flag(w::OFF);
@@ -35,9 +35,6 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let coolant = match (kind, pressure) {
         (None, None) if off => Coolant::Off,
         (Some(kind), None) => Coolant::On(kind, Pressure::Usual),
-        (Some(CoolantKind::Mist | CoolantKind::Tap | CoolantKind::Air), Some(_)) => {
-            return Err(items.error("LOW, MEDIUM and HIGH are pressures of ON, FLOOD and THRU"));
-        }
         (Some(kind), Some(pressure)) => Coolant::On(kind, pressure),
         _ => {
             let forms =

@@ -2,14 +2,14 @@
 //! follows.
 //!
 //! The GOTO is the hole's start: the bottom lies DEPTH (or FEDTO) below it, the
-//! R level CLEAR (or RAPTO) above it. RETURN,0 retracts to the level before the
+//! R level CLEAR less RAPTO above it. RETURN,0 retracts to the level before the
 //! cycle (G98), else the tool stays at R between holes (G99). On a machine
 //! without the cycle's code each hole is written as single moves.
 
 use fil_cl::WordId;
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
-use fil_machine::locations as loc;
+use fil_machine::locations::{self as loc, CycleRapto};
 use fil_machine::modes::FeedMode;
 
 use super::{fedrat, thread};
@@ -47,10 +47,11 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         items.deny_rest()?;
         return cycle::replace(post, None);
     }
-    let init = items.flag(w::INIT);
-    if init && items.len() == 1 {
+    // CYCLE/INIT and CYCLE/CLEAR alone announce the cycle that follows.
+    if items.len() == 1 && items.any_of(&[w::INIT, w::CLEAR]).is_some() {
         return Ok(());
     }
+    items.flag(w::INIT);
     let cycle = read(post, items)?;
     items.deny_rest()?;
     // RAPID right before it is of the way to its first hole, which a cycle makes at rapid.
@@ -69,10 +70,14 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         depth => depth,
     };
     let depth = depth.ok_or_else(|| PostCode::CycleForm.diag("DEPTH is missing"))?.abs();
-    let clear = clearance(post, items, &mut words.clear)?;
+    let Levels { clear, travel } = clearance(post, items, &mut words.clear)?;
     let step = step(post, items, kind, &mut words.step)?;
-    let retract = return_level(items)?;
+    let returns = return_level(items)?;
+    let retract = returns.or(travel);
     let rigid = kind == CycleKind::Tap && items.flag(w::HIGH);
+    if kind == CycleKind::Tap && !rigid {
+        warn_of_mode(post);
+    }
     let dwell = optional(items, &[w::DWELL], &mut words.dwell)?;
     if depth == 0.0 && !(feeds_to_start && clear > 0.0) || clear < 0.0 {
         return PostCode::CycleForm.err("DEPTH must not be zero and CLEAR not negative");
@@ -94,6 +99,7 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         depth,
         clear,
         retract,
+        goes_down: returns.is_none() && travel.is_some(),
         step,
         dwell: dwell.or(usual_dwell).unwrap_or(0.0),
         feed,
@@ -107,6 +113,14 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         along: None,
         in_force: None,
     })
+}
+
+/// Warns of a tap that does not ask for the code of rigid taps.
+fn warn_of_mode(post: &mut Post) {
+    if let Some(mode) = post.control.code_if_any(loc::CYCLE_RIGID_TAP_MODE) {
+        let message = format!("CYCLE/TAP: M{mode} of cycle.rigid_tap_mode is for CYCLE/TAP,HIGH");
+        post.warn(PostCode::NotRigid, message);
+    }
 }
 
 /// The depth at which a countersink of the angle TLANGL has the diameter DIAMET at the start of
@@ -166,33 +180,73 @@ fn return_level(items: &mut Items) -> Result<Option<f64>> {
     }
 }
 
-/// The R level above the hole's start: RAPTO or CLEAR, else the machine's.
+/// Levels above the start of a hole.
+struct Levels {
+    /// Where the feed begins: the R level.
+    clear: f64,
+    /// Where the tool travels between holes, if not there.
+    travel: Option<f64>,
+}
+
+/// The R level above the hole's start: CLEAR, less RAPTO; RAPTO alone; else the machine's.
 ///
 /// # Errors
-/// A RAPTO below CLEAR: the tool stays at the R level between holes.
-fn clearance(post: &mut Post, items: &mut Items, at: &mut u16) -> Result<f64> {
+/// A RAPTO that leads below the start of the hole, or with `cycle.rapto = 1` below CLEAR, at which
+/// the tool stays between holes.
+fn clearance(post: &mut Post, items: &mut Items, at: &mut u16) -> Result<Levels> {
     let rapto = optional(items, &[w::RAPTO], at)?;
     let clear = items.couplet(w::CLEAR)?;
+    let from_clear = post.control.commons.read(loc::CYCLE_RAPTO) == CycleRapto::FromClear;
     match (rapto, clear) {
-        (Some(rapto), Some(clear)) if rapto < clear => {
-            return PostCode::CycleForm.err(format!(
-                "RAPTO {rapto} is the R level, and the tool would pass between the holes below \
-                 CLEAR {clear}"
-            ));
+        (Some(rapto), Some(clear)) if from_clear && rapto != 0.0 => {
+            return below_clear(post, rapto, clear);
         }
-        (Some(rapto), Some(clear)) if rapto > clear => {
+        (Some(rapto), Some(clear)) if !from_clear && rapto < clear => {
+            return PostCode::CycleForm.err_with(
+                format!(
+                    "RAPTO {rapto} is the R level, and the tool would pass between the holes below \
+                     CLEAR {clear}"
+                ),
+                "Give a RAPTO above CLEAR, or set cycle.rapto = 0, by which it counts down from \
+                 CLEAR.",
+            );
+        }
+        (Some(rapto), Some(clear)) if !from_clear && rapto > clear => {
             let message = format!("CYCLE: CLEAR {clear}; RAPTO {rapto} is the R level");
             post.warn(PostCode::IgnoredPart, message);
         }
         (None, Some(_)) => *at = items.last_word(),
         _ => {}
     }
+    let level = if from_clear { clear.or(rapto) } else { rapto.or(clear) };
     let usual = post.control.commons.dbl_opt(loc::CYCLE_AUTO_CLEARANCE).unwrap_or(0.0);
-    if rapto.or(clear).is_none() && usual == 0.0 {
+    if level.is_none() && usual == 0.0 {
         let message = "CYCLE: neither CLEAR nor RAPTO; the tool goes at rapid to where holes start";
         post.warn(PostCode::NoClearance, message.into());
     }
-    Ok(rapto.or(clear).unwrap_or(usual))
+    Ok(Levels { clear: level.unwrap_or(usual), travel: None })
+}
+
+/// RAPTO counts from CLEAR toward the hole: the tool travels at CLEAR, and its rapid ends lower.
+///
+/// # Errors
+/// It would end below the start of the hole, or above CLEAR.
+fn below_clear(post: &mut Post, rapto: f64, clear: f64) -> Result<Levels> {
+    let level = clear - rapto;
+    if level < 0.0 || rapto < 0.0 {
+        return PostCode::CycleForm.err_with(
+            format!(
+                "RAPTO {rapto} counts from CLEAR {clear} toward the hole: the rapid would end at \
+                 {level} above its start"
+            ),
+            "Give a RAPTO of 0 to CLEAR, or set cycle.rapto = 1, by which it is the R level above \
+             the hole.",
+        );
+    }
+    let message = "CYCLE: RAPTO counts from CLEAR toward the hole, and the rapid ends at the \
+                   difference above its start";
+    post.warn(PostCode::RaptoFromClear, message.into());
+    Ok(Levels { clear: level, travel: Some(clear) })
 }
 
 /// The peck of the cycles that have one; the control's cycles have one depth for all

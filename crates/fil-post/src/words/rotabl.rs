@@ -37,12 +37,18 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
     if post.path.is_moved_by(Statement::NamedFrame) {
         return Err(items.error("a frame of the file moves the points already"));
     }
-    if !items.flag(w::TABLE) && items.major() == w::ROTATE {
-        return Err(items.error("only ROTATE/TABLE is known"));
+    let names_axis = AXES.iter().any(|axis| items.has(*axis));
+    let is_rotate = items.major() == w::ROTATE;
+    if !items.flag(w::TABLE) && is_rotate && !names_axis {
+        return Err(items.error("ROTATE needs TABLE, AAXIS, BAXIS or CAXIS"));
     }
     let index = table(post, items)?;
-    let (on, to) = (items.couplet(w::INCR)?, items.couplet(w::ATANGL)?);
+    let (on, to) = turn_asked(items)?;
     let direction = items.any_of(&[w::CLW, w::CCLW]);
+    let (on, direction) = match on {
+        Some(on) if is_rotate => signed_turn(post, index, on, direction),
+        on => (on, direction),
+    };
     let alone = items.numbers();
     items.deny_rest()?;
     post.require(Act::OtherMotion)?;
@@ -77,6 +83,37 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
     }
     carry_out(post, Operation::Turn(index, angle))?;
     Ok(true)
+}
+
+/// INCR or ATANGL with its angle, in either order with each other: `ABSOL,90`, `ABSOL,ATANGL,90`,
+/// `INCR,-36`, `INCR,ATANGL,30`.
+fn turn_asked(items: &mut Items) -> Result<(Option<f64>, Option<f64>)> {
+    items.flag(w::ABSOL);
+    if items.pair(w::INCR, w::ATANGL) {
+        let angle = items.number().ok_or_else(|| items.error("an angle is needed"))?;
+        return Ok((Some(angle), None));
+    }
+    Ok((items.couplet(w::INCR)?, items.couplet(w::ATANGL)?))
+}
+
+/// The angle of ROTATE with INCR, and its direction. Creo writes the sign and the word: plus is CLW,
+/// minus is CCLW. Where the machine says how a direction is seen it counts, else the sign does.
+fn signed_turn(
+    post: &mut Post,
+    index: usize,
+    on: f64,
+    direction: Option<WordId>,
+) -> (Option<f64>, Option<WordId>) {
+    let says_twice = direction == Some(if on < 0.0 { w::CCLW } else { w::CLW });
+    match (says_twice, way(post, index, direction)) {
+        (true, Some(_)) => (Some(on.abs()), direction),
+        (true, None) => {
+            let message = "CLW or CCLW of ROTATE: the sign of INCR says it".to_string();
+            post.warn(PostCode::IgnoredPart, message);
+            (Some(on), None)
+        }
+        (false, _) => (Some(on), direction),
+    }
 }
 
 /// Refuses a direction that counts down where the control turns up in any case.

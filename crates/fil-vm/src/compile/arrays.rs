@@ -43,7 +43,10 @@ impl<'t> Compiler<'t> {
         for (offset, value) in values.iter().enumerate() {
             let constant = match &value.kind {
                 ExprKind::Text(text) => Some(Constant::Text(text.clone())),
-                _ => self.constant(value).map(Constant::Number),
+                _ => match self.word_code(value) {
+                    Some(id) => Some(Constant::Word(id)),
+                    None => self.constant(value).map(Constant::Number),
+                },
             };
             match constant {
                 Some(constant) => self.module.data.push((start + offset, constant)),

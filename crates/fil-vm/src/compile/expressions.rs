@@ -1,5 +1,6 @@
 //! Expressions.
 
+use fil_cl::WordId;
 use fil_syntax::tree::{BinaryOp, Expr, ExprKind, Name, Span, UnaryOp};
 
 use super::Compiler;
@@ -7,6 +8,7 @@ use super::conditions::is_logical;
 use crate::builtins;
 use crate::errors::CompileCode;
 use crate::ops::{Op, Reg};
+use crate::value::EMPTY;
 
 impl Compiler<'_> {
     /// The register that holds the value of an expression: that of a variable
@@ -14,6 +16,9 @@ impl Compiler<'_> {
     pub(super) fn expression(&mut self, expr: &Expr) -> Reg {
         if let Some(number) = self.constant(expr) {
             return self.number(number, expr.span);
+        }
+        if let Some(id) = self.word_code(expr) {
+            return self.word_register(id, expr.span);
         }
         match &expr.kind {
             ExprKind::Text(text) => self.text(text, expr.span),
@@ -57,7 +62,7 @@ impl Compiler<'_> {
                     self.chunk.emit(binary(*op, dst, a, b));
                     return;
                 }
-                ExprKind::Call { name, args } => {
+                ExprKind::Call { name, args } if self.word_code(expr).is_none() => {
                     self.call(name, args, expr.span, dst);
                     return;
                 }
@@ -78,6 +83,8 @@ impl Compiler<'_> {
                 }
                 _ => self.wrong_count(&name.text, "one subscript", args.len(), span),
             }
+        } else if name.text == "TEXT" {
+            self.text_value(args, span, dst);
         } else if let Some(function) = builtins::find(&name.text) {
             self.builtin(function, args, span, dst);
         } else if let Some((function, arity)) = self.added_function(&name.text) {
@@ -121,9 +128,9 @@ impl Compiler<'_> {
     /// The value of an expression of constants, where it is finite.
     pub(super) fn constant(&mut self, expr: &Expr) -> Option<f64> {
         let value = match &expr.kind {
-            ExprKind::Number(number) => *number,
-            ExprKind::Unary { op: UnaryOp::Minus, operand } => -self.constant(operand)?,
-            ExprKind::Unary { op: UnaryOp::Plus, operand } => self.constant(operand)?,
+            ExprKind::Number(number) => return Some(*number),
+            ExprKind::Unary { op: UnaryOp::Minus, operand } => -self.folded(operand)?,
+            ExprKind::Unary { op: UnaryOp::Plus, operand } => self.folded(operand)?,
             ExprKind::Binary { op, left, right } => {
                 let fold: fn(f64, f64) -> f64 = match op {
                     BinaryOp::Add => |x, y| x + y,
@@ -132,18 +139,27 @@ impl Compiler<'_> {
                     BinaryOp::Div => |x, y| x / y,
                     _ => return None,
                 };
-                fold(self.constant(left)?, self.constant(right)?)
+                fold(self.folded(left)?, self.folded(right)?)
             }
-            ExprKind::Call { name, args } if name.text == "ICODEF" => match args.as_slice() {
-                [Expr { kind: ExprKind::Name(word), .. }] => {
-                    let id = self.vocab.intern(word);
-                    self.vocab.code(id)
-                }
-                _ => return None,
-            },
             _ => return None,
         };
-        value.is_finite().then_some(value)
+        Some(value).filter(|value| value.is_finite() && *value != EMPTY)
+    }
+
+    /// A constant that is a number: EMPTY is none, and its operation stops the run.
+    fn folded(&mut self, operand: &Expr) -> Option<f64> {
+        self.constant(operand).filter(|number| *number != EMPTY)
+    }
+
+    /// The word of ICODEF(word).
+    pub(super) fn word_code(&mut self, expr: &Expr) -> Option<WordId> {
+        let ExprKind::Call { name, args } = &expr.kind else { return None };
+        match args.as_slice() {
+            [Expr { kind: ExprKind::Name(word), .. }] if name.text == "ICODEF" => {
+                Some(self.vocab.intern(word))
+            }
+            _ => None,
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use fil_cl::WordId;
 use fil_syntax::tree::{Macro, Span};
 
 use super::Compiler;
@@ -25,6 +26,7 @@ pub(crate) struct Slots<'t> {
     /// Parameters of the macro that is being compiled.
     pub params: Vec<(&'t str, Reg)>,
     numbers: HashMap<u64, Reg>,
+    words: HashMap<WordId, Reg>,
     texts: HashMap<String, Reg>,
     next: u32,
 }
@@ -38,6 +40,7 @@ impl<'t> Slots<'t> {
             macros: Vec::new(),
             params: Vec::new(),
             numbers: HashMap::new(),
+            words: HashMap::new(),
             texts: HashMap::new(),
             next: 0,
         }
@@ -150,6 +153,17 @@ impl<'t> Compiler<'t> {
         let reg = self.reserve(1, span);
         self.slots.numbers.insert(number.to_bits(), reg);
         self.module.constants.push((reg, Constant::Number(number)));
+        reg
+    }
+
+    /// The register that holds a word.
+    pub(super) fn word_register(&mut self, id: WordId, span: Span) -> Reg {
+        if let Some(reg) = self.slots.words.get(&id) {
+            return *reg;
+        }
+        let reg = self.reserve(1, span);
+        self.slots.words.insert(id, reg);
+        self.module.constants.push((reg, Constant::Word(id)));
         reg
     }
 

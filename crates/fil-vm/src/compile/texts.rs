@@ -25,7 +25,7 @@ impl Compiler<'_> {
     }
 
     /// What follows TEXT/: a form with its minor word, or values to join.
-    fn text_value(&mut self, args: &[Expr], span: Span, dst: Reg) {
+    pub(super) fn text_value(&mut self, args: &[Expr], span: Span, dst: Reg) {
         if let [Expr { kind: ExprKind::Name(word), span: word_span }, rest @ ..] = args
             && let Some(form) = builtins::find(&format!("TEXT/{word}"))
         {

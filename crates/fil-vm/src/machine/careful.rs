@@ -7,8 +7,8 @@ use crate::builtins::{BUILTINS, FunctionKind};
 use crate::debug::Probe;
 use crate::host::Host;
 use crate::ops::{Op, Reg, Target};
+use crate::value::Slot;
 use crate::value::Value::{self, Number};
-use crate::value::{EMPTY, Slot};
 
 impl<H: Host + ?Sized> Vm<'_, H> {
     /// Carries out an operation; where it jumps, gives the target.
@@ -53,9 +53,9 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             Op::PostOption { dst, name } => (dst, self.post_option(registers, name)?),
             Op::NextMotion { dst, word } => (dst, self.neighbour(true, word)?),
             Op::ToolDiameter { dst } => {
-                (dst, Number(self.host.tool_diameter(self.vocab)?.unwrap_or(EMPTY)))
+                (dst, self.host.tool_diameter(self.vocab)?.map_or(Value::Empty, Number))
             }
-            Op::NextTool { dst } => (dst, Number(self.host.next_tool()?.unwrap_or(EMPTY))),
+            Op::NextTool { dst } => (dst, self.host.next_tool()?.map_or(Value::Empty, Number)),
             Op::Totals { dst, what, index } => (dst, self.totals(registers, what, index)?),
             Op::PreviousMotion { dst, word } => (dst, self.neighbour(false, word)?),
             _ => return self.act(registers, op),

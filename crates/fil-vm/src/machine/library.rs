@@ -13,8 +13,8 @@ use crate::host::Host;
 use crate::library::{Library, LibraryCall};
 use crate::ops::Reg;
 use crate::texts;
+use crate::value::Shown;
 use crate::value::Value::{self, Number};
-use crate::value::{EMPTY, Shown};
 
 impl<H: Host + ?Sized> Vm<'_, H> {
     /// Carries out a call.
@@ -119,9 +119,6 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     ) -> Result<Value, Box<Diag>> {
         let refused = |message: String| fault(RunCode::Conversion, message);
         let number = self.number(registers, call.base)?;
-        if number == EMPTY {
-            return Err(refused("EMPTY is no number to write".to_string()));
-        }
         let width = if call.count > 1 { self.size(registers, call.base + 1)? } else { 0 };
         if width > self.limits.text_bytes {
             return Err(self.too_much_text());
@@ -264,7 +261,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     fn size(&mut self, registers: &Registers, reg: Reg) -> Result<usize, Box<Diag>> {
         let number = self.number(registers, reg)?;
         let whole = number as usize;
-        if whole as f64 == number && number != EMPTY {
+        if whole as f64 == number {
             return Ok(whole);
         }
         Err(outside(format!("{} is no number of characters", Shown(number))))

@@ -17,13 +17,13 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 use fil_cl::Vocabulary;
-use fil_cl::{Record, Word};
+use fil_cl::{Record, Word, WordId};
 use fil_diag::Diag;
 
 use crate::functions::Functions;
 use crate::host::{FileMode, Host, Site};
 use crate::module::{ChunkId, Constant, Module, SectionId};
-use crate::value::{Slot, Texts, Value};
+use crate::value::{EMPTY, Slot, Texts, Value};
 
 pub use output::Values;
 pub use view::{Held, StackFrame, View};
@@ -188,10 +188,19 @@ impl Interpreter {
         self.run(chunk, Some(record), vocab, host)
     }
 
-    /// The value of a name; `None` where no script uses it or it was never set.
+    /// The number of a name, 999999 for EMPTY; `None` where it holds none or was never set.
     pub fn number(&self, name: &str) -> Option<f64> {
         match self.value(name)? {
             Value::Number(number) => Some(number),
+            Value::Empty => Some(EMPTY),
+            _ => None,
+        }
+    }
+
+    /// The word of a record that a name holds.
+    pub fn word(&self, name: &str) -> Option<WordId> {
+        match self.value(name)? {
+            Value::Word(id) => Some(id),
             _ => None,
         }
     }
@@ -241,7 +250,8 @@ impl Interpreter {
 /// The value of a constant.
 fn loaded(texts: &mut Texts, constant: &Constant) -> Slot {
     let value = match constant {
-        Constant::Number(number) => Value::Number(*number),
+        Constant::Number(number) => Value::of(*number),
+        Constant::Word(id) => Value::Word(*id),
         // Texts of the program itself are not counted against the limit.
         Constant::Text(text) => texts.add(text, usize::MAX).map_or(Value::Unset, Value::Text),
     };

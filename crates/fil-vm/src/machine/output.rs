@@ -98,25 +98,25 @@ impl Interpreter {
             })
             .collect();
         for (word, index) in parameters.iter().zip(&found) {
-            let value = index.map_or(EMPTY, |index| words[index].1);
+            let value = index.map_or(Value::Empty, |index| Value::Number(words[index].1));
             self.registers[usize::from(word.register)] = value.into();
         }
         self.run_macro(chunk, vocab, host)?;
         let mut gone = Vec::new();
         for (word, index) in parameters.iter().zip(found) {
             let value = match self.registers[usize::from(word.register)].value() {
-                Value::Number(value) => value,
-                Value::Unset => EMPTY,
-                Value::Text(_) => {
+                Value::Number(value) => Some(value),
+                Value::Empty | Value::Unset => None,
+                Value::Text(_) | Value::Word(_) => {
                     let letter = char::from(word.letter);
                     return Err(self.at_macro(chunk, &format!("{letter} holds a text")));
                 }
             };
             match (index, value) {
-                (Some(index), EMPTY) => gone.push(index),
-                (Some(index), value) => words[index].1 = value,
-                (None, EMPTY) => {}
-                (None, value) => words.push((word.letter, value)),
+                (Some(index), None) => gone.push(index),
+                (Some(index), Some(value)) => words[index].1 = value,
+                (None, None) => {}
+                (None, Some(value)) => words.push((word.letter, value)),
             }
         }
         gone.sort_unstable();
@@ -141,15 +141,15 @@ impl Interpreter {
             return Ok(());
         };
         for (at, register) in &parameters {
-            self.registers[usize::from(*register)] = values[*at].into();
+            self.registers[usize::from(*register)] = Value::of(values[*at]).into();
         }
         self.run_macro(chunk, vocab, host)?;
         for (at, register) in parameters {
             let name = REPOSITION[at];
             let value = match self.registers[usize::from(register)].value() {
                 Value::Number(value) => value,
-                Value::Unset => EMPTY,
-                Value::Text(_) => {
+                Value::Empty | Value::Unset => EMPTY,
+                Value::Text(_) | Value::Word(_) => {
                     return Err(self.at_macro(chunk, &format!("{name} holds a text")));
                 }
             };

@@ -8,8 +8,8 @@ use super::{Registers, Vm};
 use crate::errors::RunCode;
 use crate::host::Host;
 use crate::module::{Item, Template};
-use crate::value::Value::{Number, Text, Unset};
-use crate::value::{EMPTY, Shown};
+use crate::value::Shown;
+use crate::value::Value::{self, Empty, Number, Text, Unset};
 
 impl<H: Host + ?Sized> Vm<'_, H> {
     /// Builds the record of a template and hands it to the post.
@@ -52,7 +52,8 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             let word = match item {
                 Item::Minor(id) => Word::Minor(*id),
                 Item::Value(reg) => match self.read(registers, *reg)? {
-                    Number(EMPTY) | Unset => Word::Empty,
+                    Empty | Unset => Word::Empty,
+                    Value::Word(id) => Word::Minor(id),
                     Number(number) => Word::Number(number),
                     Text(id) => push_text(&mut text, self.state.texts.get(id)),
                 },
@@ -74,10 +75,11 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                 Item::Minor(id) => text.push_str(self.vocab.name(*id)),
                 Item::Value(reg) => match self.read(registers, *reg)? {
                     Text(id) => text.push_str(self.state.texts.get(id)),
-                    Number(EMPTY) | Unset => {
+                    Empty | Unset => {
                         let message = format!("EMPTY stands in the text of {}", template.name);
                         return Err(fault(RunCode::WrongType, message));
                     }
+                    Value::Word(_) => return Err(self.not_a_number(registers, *reg)),
                     Number(number) => text.push_str(&Shown(number).to_string()),
                 },
             }

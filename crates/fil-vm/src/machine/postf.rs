@@ -9,7 +9,7 @@ use crate::errors::RunCode;
 use crate::host::{CommonKind, Host};
 use crate::ops::Reg;
 use crate::postf::PostfOp;
-use crate::value::Value::{self, Number, Text, Unset};
+use crate::value::Value::{self, Empty, Number, Text, Unset};
 use crate::value::{EMPTY, Shown};
 
 /// Value of POSTF calls that only do something.
@@ -56,11 +56,11 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         match op {
             PostfOp::GetCommon => {
                 let (kind, location) = self.common_address(registers, base)?;
-                self.host.common(kind, location).map(Number)
+                self.host.common(kind, location).map(Value::of)
             }
             PostfOp::SetCommon => {
                 let (kind, location) = self.common_address(registers, base)?;
-                let value = self.number(registers, base.wrapping_add(2))?;
+                let value = self.plain(registers, base.wrapping_add(2))?;
                 let warning = if value == EMPTY {
                     self.host.clear_common(kind, location)?
                 } else {
@@ -75,7 +75,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                 self.warn_of(warning);
                 Ok(DONE)
             }
-            PostfOp::Empty => Ok(Number(EMPTY)),
+            PostfOp::Empty => Ok(Empty),
             PostfOp::Length => Ok(Number(self.current()?.len() as f64)),
             PostfOp::Class => {
                 let n = self.whole(registers, base)?;
@@ -87,7 +87,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             }
             PostfOp::Find => {
                 let from = self.whole(registers, base)?;
-                let code = self.number(registers, second)?;
+                let code = self.plain(registers, second)?;
                 self.find_code(from, code)
             }
             PostfOp::SetWord | PostfOp::Insert => {
@@ -142,21 +142,24 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             let message = format!("words count from 1; there is no word {}", Shown(n));
             return Err(fault(RunCode::BadWordNumber, message));
         }
+        if let Some(word) = record.vocabulary_word(at) {
+            return Ok(Value::Word(word));
+        }
         if let Some(value) = record.value(at, self.vocab) {
-            return Ok(Number(value));
+            return Ok(Value::of(value));
         }
         match record.data_word(at) {
             Some(word @ Word::Text { .. }) => {
                 let text = record.text_of(word).to_string();
                 self.new_text(registers, &text)
             }
-            Some(_) => Ok(Number(EMPTY)),
+            Some(_) => Ok(Empty),
             None => {
                 let last = record.len();
                 self.warn_once(RunCode::PastEnd, || {
                     format!("the record ends with word {last}; word {at} is read as EMPTY")
                 });
-                Ok(Number(EMPTY))
+                Ok(Empty)
             }
         }
     }
@@ -227,7 +230,8 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         let was_minor = matches!(self.current()?.data_word(n), Some(Word::Minor(_)));
         let keep_minor = was_minor && op == PostfOp::SetWord;
         let word = match value {
-            Number(EMPTY) | Unset => Word::Empty,
+            Empty | Unset => Word::Empty,
+            Value::Word(id) => Word::Minor(id),
             Number(number) => match self.vocab.minor_with_code(number) {
                 Some(id) if keep_minor => Word::Minor(id),
                 _ => Word::Number(number),

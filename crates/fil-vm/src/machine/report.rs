@@ -7,7 +7,7 @@ use fil_diag::Diag;
 use super::{Registers, Spot, Vm};
 use crate::errors::RunCode;
 use crate::host::{Host, Site};
-use crate::value::{Shown, Value};
+use crate::value::{EMPTY, Shown, Value};
 
 /// Words of a record shown in a note; a message is no listing.
 const MOST_WORDS_SHOWN: usize = 40;
@@ -91,6 +91,8 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         match value {
             Value::Number(number) => Shown(number).to_string(),
             Value::Text(id) => format!("'{}'", self.state.texts.get(id)),
+            Value::Word(id) => self.vocab.name(id).to_string(),
+            Value::Empty => Shown(EMPTY).to_string(),
             Value::Unset => "never set".to_string(),
         }
     }

@@ -9,7 +9,7 @@ use crate::errors::RunCode;
 use crate::functions::{Argument, Returned};
 use crate::host::{CommonKind, Host};
 use crate::ops::Reg;
-use crate::value::Value::{self, Number, Text, Unset};
+use crate::value::Value::{self, Empty, Number, Text, Unset, Word};
 use crate::value::{EMPTY, Shown};
 
 /// Bytes of text that cost as much as one pass of a loop.
@@ -28,7 +28,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                     let name = module.names.get(&reg).map_or("a value", String::as_str);
                     format!("{name} was never set; read as EMPTY")
                 });
-                Ok(Number(EMPTY))
+                Ok(Empty)
             }
             value => Ok(value),
         }
@@ -44,11 +44,51 @@ impl<H: Host + ?Sized> Vm<'_, H> {
 
     #[cold]
     pub(super) fn not_a_number(&self, registers: &Registers, reg: Reg) -> Box<Diag> {
-        let text = match registers[usize::from(reg)].value() {
-            Text(id) => self.state.texts.get(id),
-            _ => "",
-        };
-        fault(RunCode::WrongType, format!("'{text}' is a text; a number is needed here"))
+        let name = self.module.names.get(&reg);
+        match registers[usize::from(reg)].value() {
+            Word(id) => {
+                let word = self.vocab.name(id);
+                let what = name.map_or(String::new(), |name| format!("{name} is "));
+                let message = format!("{what}the word {word}; a number is needed here");
+                let mut diag = fault(RunCode::WrongType, message);
+                diag.hint = Some(
+                    "Check which word of the record it is: POSTF(6,n) is 2 for a word, and \
+                     COUPLF(word) gives the number after a word."
+                        .to_string(),
+                );
+                diag
+            }
+            Text(id) => {
+                let text = self.state.texts.get(id);
+                fault(RunCode::WrongType, format!("'{text}' is a text; a number is needed here"))
+            }
+            _ => {
+                let name = name.map_or("the value", String::as_str);
+                let message = format!("{name} is EMPTY; a number is needed here");
+                let mut diag = fault(RunCode::WrongType, message);
+                diag.hint = Some("Test it first, as in IF(X.NE.POSTF(4))THEN.".to_string());
+                diag
+            }
+        }
+    }
+
+    /// The number that a value compares as; `None` for a text.
+    pub(super) fn compared(&self, value: Value) -> Option<f64> {
+        match value {
+            Number(number) => Some(number),
+            Word(id) => Some(self.vocab.code(id)),
+            Empty | Unset => Some(EMPTY),
+            Text(_) => None,
+        }
+    }
+
+    /// The number that a register compares as, or that a common keeps.
+    ///
+    /// # Errors
+    /// A text.
+    pub(super) fn plain(&mut self, registers: &Registers, reg: Reg) -> Result<f64, Box<Diag>> {
+        let value = self.read(registers, reg)?;
+        self.compared(value).ok_or_else(|| self.not_a_number(registers, reg))
     }
 
     pub(super) fn arithmetic(
@@ -96,12 +136,10 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         b: Reg,
     ) -> Result<bool, Box<Diag>> {
         match (self.read(registers, a)?, self.read(registers, b)?) {
-            (Number(x), Number(y)) => Ok(x == y),
             (Text(x), Text(y)) => Ok(self.state.texts.get(x) == self.state.texts.get(y)),
             // EMPTY means "nothing here", which a text never is.
-            (Number(EMPTY), Text(_)) | (Text(_), Number(EMPTY)) => Ok(false),
-            (Number(_), _) => Err(self.not_a_number(registers, b)),
-            _ => Err(self.not_a_number(registers, a)),
+            (Empty, Text(_)) | (Text(_), Empty) => Ok(false),
+            _ => Ok(self.plain(registers, a)? == self.plain(registers, b)?),
         }
     }
 
@@ -114,7 +152,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         match (self.read(registers, a)?, self.read(registers, b)?) {
             (Text(x), Text(y)) => Ok(self.state.texts.get(x).cmp(self.state.texts.get(y))),
             _ => {
-                let (x, y) = (self.number(registers, a)?, self.number(registers, b)?);
+                let (x, y) = (self.plain(registers, a)?, self.plain(registers, b)?);
                 // Numbers in registers are finite; adding 0 makes -0 equal to 0.
                 Ok((x + 0.0).total_cmp(&(y + 0.0)))
             }
@@ -242,7 +280,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         self.warn_once(RunCode::NeverSet, || {
             format!("an element of {name} was never set; read as EMPTY")
         });
-        Ok(Number(EMPTY))
+        Ok(Empty)
     }
 
     pub(super) fn function(
@@ -286,15 +324,14 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         let arguments: Vec<Argument<'_>> = values
             .iter()
             .map(|value| match value {
-                Number(number) => Argument::Number(*number),
                 Text(id) => Argument::Text(texts.get(*id)),
-                Unset => Argument::Number(EMPTY),
+                other => Argument::Number(self.compared(*other).unwrap_or(EMPTY)),
             })
             .collect();
         let functions = self.functions;
         let name = functions.name(index);
         match functions.call(index, &arguments) {
-            Ok(Returned::Number(number)) if number.is_finite() => Ok(Number(number)),
+            Ok(Returned::Number(number)) if number.is_finite() => Ok(Value::of(number)),
             Ok(Returned::Number(number)) => {
                 RunCode::HostFunction.err(format!("{name} gives {number}"))
             }
@@ -315,7 +352,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             let message = format!("{} is no letter; letters are 1 to 26", Shown(number));
             return Err(fault(RunCode::Missing, message));
         }
-        self.host.common(CommonKind::Dbl, 355 + whole).map(Number)
+        self.host.common(CommonKind::Dbl, 355 + whole).map(Value::of)
     }
 
     pub(super) fn named_common(
@@ -328,7 +365,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         };
         let name = self.state.texts.get(id);
         match self.host.named_common(name) {
-            Some(value) => value.map(Number),
+            Some(value) => value.map(Value::of),
             None => Err(fault(RunCode::Missing, format!("no common is named '{name}'"))),
         }
     }
@@ -344,7 +381,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         let name = self.state.texts.get(id);
         match self.host.post_option(name) {
             Some(value) => match value? {
-                Returned::Number(number) => Ok(Number(number)),
+                Returned::Number(number) => Ok(Value::of(number)),
                 Returned::Text(text) => self.made(registers, &text),
             },
             None => Err(fault(RunCode::Missing, format!("the post has no option '{name}'"))),
@@ -354,10 +391,26 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     pub(super) fn neighbour(&mut self, next: bool, word: u16) -> Result<Value, Box<Diag>> {
         let side = if next { "next" } else { "previous" };
         match self.host.neighbour(next, usize::from(word), self.vocab)? {
-            Some(value) => Ok(Number(value)),
-            None => Err(fault(RunCode::Missing, format!("there is no {side} motion"))),
+            Some(value) => Ok(Value::of(value)),
+            None => Err(no_motion(side)),
         }
     }
+}
+
+/// NEXTF before no motion, or PREVF behind none.
+#[cold]
+fn no_motion(side: &str) -> Box<Diag> {
+    let mut diag = fault(RunCode::Missing, format!("there is no {side} motion"));
+    diag.hint = Some(
+        match side {
+            "previous" => {
+                "Ask PREVF behind a first motion: keep a name that CIMFIL/ON,GOTO sets to 1."
+            }
+            _ => "Ask NEXTF before the last motion alone.",
+        }
+        .to_string(),
+    );
+    diag
 }
 
 /// Other languages join texts with a plus sign.

@@ -7,7 +7,7 @@ use super::{Registers, Vm};
 use crate::errors::RunCode;
 use crate::host::Host;
 use crate::ops::Reg;
-use crate::value::Value::{self, Number, Text, Unset};
+use crate::value::Value::{self, Empty, Number, Text, Unset, Word};
 use crate::value::{EMPTY, Shown, TextId};
 
 impl<H: Host + ?Sized> Vm<'_, H> {
@@ -22,7 +22,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                 let message = format!("{} is a number; a text is needed here", Shown(number));
                 Err(fault(RunCode::WrongType, message))
             }
-            Unset => Err(fault(RunCode::WrongType, "a text is needed here")),
+            Word(_) | Empty | Unset => Err(fault(RunCode::WrongType, "a text is needed here")),
         }
     }
 
@@ -46,9 +46,12 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         count: u16,
     ) -> Result<String, Box<Diag>> {
         for offset in 0..count {
-            // EMPTY means "nothing here" and must not end up as a word in a block.
-            if self.read(registers, base.wrapping_add(offset))? == Number(EMPTY) {
-                return Err(fault(RunCode::WrongType, "EMPTY can't be part of a text"));
+            // Neither EMPTY nor the code of a word may end up as a number in a block.
+            let reg = base.wrapping_add(offset);
+            match self.read(registers, reg)? {
+                Empty => return Err(fault(RunCode::WrongType, "EMPTY can't be part of a text")),
+                Word(_) => return Err(self.not_a_number(registers, reg)),
+                Number(_) | Text(_) | Unset => {}
             }
         }
         self.message(registers, base, count)
@@ -66,7 +69,8 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             match self.read(registers, base.wrapping_add(offset))? {
                 Text(id) => joined.push_str(self.state.texts.get(id)),
                 Number(number) => joined.push_str(&Shown(number).to_string()),
-                Unset => joined.push_str(&Shown(EMPTY).to_string()),
+                Word(id) => joined.push_str(self.vocab.name(id)),
+                Empty | Unset => joined.push_str(&Shown(EMPTY).to_string()),
             }
             if joined.len() > self.limits.text_bytes {
                 return Err(self.too_much_text());

@@ -8,8 +8,8 @@ use crate::errors::RunCode;
 use crate::host::Host;
 use crate::ops::Reg;
 use crate::totals::{TotalsList, TotalsOf, TotalsText, meant_by};
+use crate::value::Shown;
 use crate::value::Value::{self, Number};
-use crate::value::{EMPTY, Shown};
 
 impl<H: Host + ?Sized> Vm<'_, H> {
     /// A number of the whole program, of a tool or of an operation.
@@ -25,7 +25,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             TotalsList::Tools => TotalsOf::Tool(self.entry(registers, index)?),
             TotalsList::Operations => TotalsOf::Operation(self.entry(registers, index)?),
         };
-        Ok(Number(self.host.totals(of, word)?.unwrap_or(EMPTY)))
+        Ok(self.host.totals(of, word)?.map_or(Value::Empty, Number))
     }
 
     /// TEXT/PROG, TEXT/TLIST and TEXT/OPER.

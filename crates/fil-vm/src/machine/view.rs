@@ -9,7 +9,7 @@ use crate::errors::RunCode;
 use crate::host::Host;
 use crate::module::{Module, Statement};
 use crate::ops::{Reg, Target};
-use crate::value::{Slot, Value};
+use crate::value::{EMPTY, Slot, Value};
 
 /// What a name holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -174,6 +174,8 @@ impl View<'_> {
     fn told(&self, value: Value) -> Held {
         match value {
             Value::Number(number) => Held::Number(number),
+            Value::Word(id) => Held::Number(self.vocabulary.code(id)),
+            Value::Empty => Held::Number(EMPTY),
             Value::Text(id) => Held::Text(self.state.texts.get(id).to_string()),
             Value::Unset => Held::Unset,
         }
@@ -181,7 +183,7 @@ impl View<'_> {
 
     fn slot(&mut self, value: &Held) -> Result<Slot, Box<Diag>> {
         Ok(match value {
-            Held::Number(number) if number.is_finite() => Slot::from(*number),
+            Held::Number(number) if number.is_finite() => Value::of(*number).into(),
             Held::Number(number) => return RunCode::Domain.err(format!("{number} is not finite")),
             Held::Text(text) => match self.state.texts.add(text, self.text_bytes) {
                 Ok(id) => Value::Text(id).into(),

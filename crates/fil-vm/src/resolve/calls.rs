@@ -29,6 +29,10 @@ impl<'t> Resolver<'t, '_> {
             args.iter().for_each(|arg| self.expression(arg, Role::Read));
             return;
         }
+        if name.text == "TEXT" {
+            self.text_arguments(args);
+            return;
+        }
         let callee = self.callee(&name.text);
         self.used(callee.symbol, name.span, Role::Call);
         match callee.kind {

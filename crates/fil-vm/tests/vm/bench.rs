@@ -194,8 +194,11 @@ impl Bench {
         Ok(outcomes)
     }
 
+    /// The number of a name, or the code of its word.
     pub fn number(&self, name: &str) -> f64 {
-        self.machine.number(name).unwrap_or_else(|| panic!("{name} holds no number"))
+        let code = || self.machine.word(name).map(|id| self.vocab.code(id));
+        let number = self.machine.number(name).or_else(code);
+        number.unwrap_or_else(|| panic!("{name} holds no number"))
     }
 
     /// Numbers of the warnings of the run.

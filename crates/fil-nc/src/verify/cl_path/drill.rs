@@ -31,7 +31,7 @@ impl State {
             self.cycle = None;
             return Some(vec![ExpectedStep::CycleEnd]);
         }
-        if record.data == [Word::Minor(w::INIT)] {
+        if matches!(record.data[..], [Word::Minor(w::INIT | w::CLEAR)]) {
             return Some(Vec::new());
         }
         let number = |words: &[WordId]| words.iter().find_map(|word| record.number_after(*word));
@@ -51,14 +51,21 @@ impl State {
         // A RAPID that waits is that of the way to the first hole.
         self.rapid = false;
         let rigid = kind == CycleKind::Tap && record.has(w::HIGH);
+        let (rapto, clear) = (record.number_after(w::RAPTO), record.number_after(w::CLEAR));
+        // RAPTO beside CLEAR counts from there; the tool travels at CLEAR.
+        let travel = clear.filter(|_| !self.rapto_is_level && rapto.is_some_and(|it| it != 0.0));
+        let level = match (rapto, clear) {
+            (Some(rapto), Some(clear)) if !self.rapto_is_level => Some(clear - rapto),
+            _ => rapto.or(clear),
+        };
         self.cycle = Some(Cycle {
             kind,
             depth: depth.abs(),
-            clear: number(&[w::RAPTO, w::CLEAR]),
+            clear: level,
             retract: if by_itself || pulls_back && !off {
                 Some(0.0)
             } else {
-                number(&[w::RETURN, w::RTRCTO])
+                number(&[w::RETURN, w::RTRCTO]).or(travel)
             },
             step: number(&[w::STEP, w::SUBPECK, w::INCR]).filter(|_| kind.pecks()),
             dwell: record.number_after(w::DWELL),

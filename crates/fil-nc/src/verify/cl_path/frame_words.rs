@@ -10,6 +10,7 @@ use super::named_frame::NamedFrames;
 use super::{State, own_words};
 use crate::forward::Forward;
 use crate::motion::Position;
+use crate::text::read_block;
 use crate::verify::expected_step::{Effect, ExpectedStep, TableWay};
 use crate::verify::statements::{numbers, numbers_beside};
 
@@ -35,14 +36,19 @@ pub struct FrameWords {
     pub by_default: bool,
     /// The rotary axes; `None` for a machine without one.
     pub forward: Option<Forward>,
-    /// Where ROTABL has turned them, degrees; `None` for one that it has not.
+    /// Where ROTABL or a block of an author has turned them, degrees; `None` for one that neither
+    /// has.
     pub turned: [Option<f64>; 2],
+    /// The letters of tables that stay where a block of an author turns them.
+    pub author_turns: [Option<u8>; 2],
 }
 
 /// TRANS with a matrix.
 pub(super) struct Matrix {
     pub(super) rows: Matrix3x4<f64>,
     pub(super) turns_axis: bool,
+    /// A block of an author has turned a table: a tool axis of a point turns it elsewhere.
+    pub(super) by_author: bool,
 }
 
 /// The frame that points of the CL file are in; lengths in CL units.
@@ -80,8 +86,8 @@ impl State {
             [x, y, z] => self.frame.shift = Vector3::new(x, y, z),
             _ if values.len() == 12 => {
                 let rows = Matrix3x4::from_row_slice(&values);
-                self.frame.matrix =
-                    Some(Matrix { rows, turns_axis: option.is_none() && !self.frame.leaves_axis });
+                let turns_axis = option.is_none() && !self.frame.leaves_axis;
+                self.frame.matrix = Some(Matrix { rows, turns_axis, by_author: false });
             }
             _ => {
                 return vec![ExpectedStep::Unknown {
@@ -120,7 +126,7 @@ impl State {
         }
         let values = numbers(record);
         let rows = (values.len() == 12).then(|| Matrix3x4::from_row_slice(&values))?;
-        self.frame.matrix = Some(Matrix { rows, turns_axis: true });
+        self.frame.matrix = Some(Matrix { rows, turns_axis: true, by_author: false });
         Some(Vec::new())
     }
 
@@ -159,19 +165,8 @@ impl State {
         let unit = self.unit();
         match self.frame.words.table {
             RotaryTableWords::PointsStay => {
-                let at = |linear: [f64; 3]| {
-                    let at = Position { linear, rotary: turned, ..Position::default() };
-                    forward.pose(&at).tip / unit
-                };
-                let zero = at([0.0; 3]);
-                let along = |n: usize| {
-                    let mut linear = [0.0; 3];
-                    linear[n] = unit;
-                    at(linear) - zero
-                };
-                let columns = [along(0), along(1), along(2), zero.coords];
-                let rows = Matrix3x4::from_columns(&columns);
-                self.frame.matrix = Some(Matrix { rows, turns_axis: true });
+                let rows = slides(forward, turned, unit);
+                self.frame.matrix = Some(Matrix { rows, turns_axis: true, by_author: false });
             }
             _ => {
                 self.tool.axis = forward.axis(turned);
@@ -179,6 +174,34 @@ impl State {
             }
         }
         Some(vec![ExpectedStep::Turn { index, angle, way }])
+    }
+
+    /// INSERT: a table that its block turns stays there, and points without a tool axis are
+    /// positions of the slides.
+    pub(super) fn insert(&mut self, record: &Record) -> Vec<ExpectedStep> {
+        let text = record.text.trim().to_string();
+        if !self.tool.multax && self.tool.axis == Vector3::z() {
+            self.turn_by_text(&text);
+        }
+        vec![ExpectedStep::Insert { text, may_be_skipped: false }]
+    }
+
+    fn turn_by_text(&mut self, text: &str) {
+        let Ok(block) = read_block(text.as_bytes(), "INSERT", 1) else { return };
+        let unit = self.unit();
+        let words = &mut self.frame.words;
+        let before = words.turned;
+        for (letter, turned) in words.author_turns.into_iter().zip(&mut words.turned) {
+            let word = block.words.iter().find(|word| Some(word.letter) == letter);
+            *turned = word.map(|word| word.number.value()).or(*turned);
+        }
+        let by_other = self.frame.matrix.as_ref().is_some_and(|matrix| !matrix.by_author);
+        let (Some(forward), false) = (&words.forward, by_other || words.turned == before) else {
+            return;
+        };
+        let angles = words.turned.map(Option::unwrap_or_default);
+        let rows = slides(forward, angles, unit);
+        self.frame.matrix = Some(Matrix { rows, turns_axis: true, by_author: true });
     }
 
     /// Which way positions count as a record turns the table, 1 or -1; `None` where either will do.
@@ -190,4 +213,20 @@ impl State {
         let sense = self.frame.words.clockwise.filter(|_| !self.tool.multax)?;
         Some(if clockwise { sense } else { -sense })
     }
+}
+
+/// Brings positions of the slides, with the rotary axes at these angles, into the part; lengths in
+/// CL units of `unit` mm.
+fn slides(forward: &Forward, rotary: [f64; 2], unit: f64) -> Matrix3x4<f64> {
+    let at = |linear: [f64; 3]| {
+        let at = Position { linear, rotary, ..Position::default() };
+        forward.pose(&at).tip / unit
+    };
+    let zero = at([0.0; 3]);
+    let along = |n: usize| {
+        let mut linear = [0.0; 3];
+        linear[n] = unit;
+        at(linear) - zero
+    };
+    Matrix3x4::from_columns(&[along(0), along(1), along(2), zero.coords])
 }

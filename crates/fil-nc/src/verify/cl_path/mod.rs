@@ -97,6 +97,8 @@ struct State {
     /// LINTOL, mm.
     straight: Option<f64>,
     names: ToolNames,
+    /// RAPTO beside CLEAR is the R level.
+    rapto_is_level: bool,
 }
 
 /// Goes through a CL file.
@@ -115,6 +117,13 @@ pub struct ClPath<'r> {
 }
 
 impl<'r> ClPath<'r> {
+    /// The same path, where RAPTO beside CLEAR is the R level (`cycle.rapto = 1`).
+    #[must_use]
+    pub fn with_rapto_as_level(mut self, is_level: bool) -> Self {
+        self.state.rapto_is_level = is_level;
+        self
+    }
+
     /// The path of a CL text; `name` is what messages show, `shift` the machine's
     /// translation of the input.
     pub fn new(reader: Reader<'r>, name: &str, shift: [f64; 3]) -> Self {

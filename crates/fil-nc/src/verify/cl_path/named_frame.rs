@@ -67,7 +67,8 @@ impl State {
         }
         let into_first = first.try_inverse().unwrap_or_else(Matrix4::identity) * frame;
         let rows: Matrix3x4<f64> = into_first.fixed_rows::<3>(0).into_owned();
-        self.frame.matrix = (!near(first, &frame)).then_some(Matrix { rows, turns_axis: true });
+        let matrix = Matrix { rows, turns_axis: true, by_author: false };
+        self.frame.matrix = (!near(first, &frame)).then_some(matrix);
     }
 }
 

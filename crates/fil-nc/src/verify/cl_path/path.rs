@@ -28,6 +28,9 @@ impl State {
         vocabulary: &Vocabulary,
     ) -> Option<ExpectedStep> {
         let axis = record.axis().map_or(self.tool.axis, Vector3::from);
+        if record.axis().is_some() && self.frame.matrix.as_ref().is_some_and(|it| it.by_author) {
+            self.frame.matrix = None;
+        }
         let point = match record.point() {
             by if record.sub == motion::GODLTA => self.point_beside(record, by),
             point => point.map(Point3::from),
@@ -195,7 +198,7 @@ impl State {
     /// A point and a tool axis after TRANS, in mm.
     pub(super) fn pose(&self, point: Point3<f64>, axis: Vector3<f64>) -> Pose {
         let (point, axis) = match &self.frame.matrix {
-            Some(Matrix { rows, turns_axis }) => {
+            Some(Matrix { rows, turns_axis, .. }) => {
                 let turned = rows.fixed_columns::<3>(0) * axis;
                 let point = Point3::from(rows * point.to_homogeneous());
                 (point, if *turns_axis { turned } else { axis })

@@ -69,7 +69,7 @@ pub(super) const WORDS: &[(WordId, Reading)] = &[
     (w::SET, S(|_, record| offset_by_number(record))),
     (w::STOP, S(|_, _| vec![ExpectedStep::Stop { optional: false }])),
     (w::OPSTOP, S(|_, _| vec![ExpectedStep::Stop { optional: true }])),
-    (w::INSERT, S(|_, record| vec![insert(record)])),
+    (w::INSERT, S(State::insert)),
     (w::POSTN, Own(|_, record, vocabulary| own_words::once(record, vocabulary))),
     (w::REPEAT, Own(|_, record, vocabulary| own_words::repeated(record, vocabulary))),
     (w::END, S(|_, _| vec![ExpectedStep::End(End::Stay)])),
@@ -242,8 +242,4 @@ fn auxiliary(record: &Record) -> Option<Steps> {
 fn offset_by_number(record: &Record) -> Steps {
     let number = numbers(record).first().copied();
     record.has(w::OFSETL).then_some(ExpectedStep::WorkOffset(number)).into_iter().collect()
-}
-
-fn insert(record: &Record) -> ExpectedStep {
-    ExpectedStep::Insert { text: record.text.trim().to_string(), may_be_skipped: false }
 }

@@ -1,6 +1,7 @@
 //! Codes and placements of spindle, coolant, stops and end.
 
 use fil_machine::commons::Rel;
+use fil_machine::cycle_kind::CycleKind;
 use fil_machine::locations::{
     self as loc, ControlFamily, FixtureForm, ThreadCycle, ToolChangeStop,
 };
@@ -8,6 +9,7 @@ use fil_machine::setting::CodeAt;
 use fil_machine::user_blocks;
 
 use super::{Due, Settings, due};
+use crate::dialect::{self, Function};
 use crate::motion::{Spindle, WORD_OFFSETS};
 use crate::text::read_block;
 use crate::verify::expected_step::{CoolantKind, End, SpindleRange};
@@ -173,7 +175,11 @@ impl Settings<'_> {
     pub fn work_offset(&self, number: Option<f64>) -> Option<u32> {
         let code = |at: CodeAt| u32::try_from(self.commons.read(at)?).ok();
         let by_word = self.chooses_offsets_by_word();
-        let Some(number) = number else {
+        // A control with further offsets alone has no G54: its first one is meant.
+        let is_empty = code(loc::FIXTURE_MAX_CODE) < code(loc::FIXTURE_MIN_CODE);
+        let has_further = self.commons.int_opt(loc::FIXTURE_EXTENDED_CODE).is_some();
+        let first = (is_empty && has_further && !by_word).then_some(1.0);
+        let Some(number) = number.or(first) else {
             return code(loc::FIXTURE_DEFAULT_CODE).filter(|_| !by_word && !self.is_klartext());
         };
         let index = number as i64 + i64::from(self.commons.int_opt(loc::FIXTURE_BASE).unwrap_or(0));
@@ -227,6 +233,15 @@ impl Settings<'_> {
     /// How far single moves come back above the last peck, mm.
     pub fn peck_gap(&self) -> f64 {
         self.commons.dbl_opt(loc::CYCLE_PECK_GAP).unwrap_or(0.0).max(0.0)
+    }
+
+    /// What a hole of this kind is in a cycle of the control: where `cycle.deep_code` names G73,
+    /// DEEP breaks chips.
+    pub fn kind_in_cycle(&self, kind: CycleKind) -> CycleKind {
+        let tenths = self.commons.read(loc::CYCLE_DEEP_CODE).map(|code| i64::from(code) * 10);
+        let function = tenths.and_then(|tenths| self.dialect.function(tenths));
+        let breaks = matches!(function, Some(Function::Cycle(dialect::CycleKind::BreakChips, _)));
+        if kind == CycleKind::Deep && breaks { CycleKind::Brkchp } else { kind }
     }
 
     /// The code of STOP or OPSTOP.

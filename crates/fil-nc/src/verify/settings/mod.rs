@@ -214,7 +214,22 @@ impl<'c> Settings<'c> {
             by_default: self.commons.read(loc::ROTARY_DEFAULT_CLW) == RotaryDefaultClw::Yes,
             forward: self.forward.has_rotary().then(|| self.forward.clone()),
             turned: [None; 2],
+            author_turns: self.tables_that_stay(),
         }
+    }
+
+    /// The letters of the tables that stay where a block of an author turns them: all but those
+    /// that tool center point control, tilted work planes or a mill-turn machine turn.
+    fn tables_that_stay(&self) -> [Option<u8>; 2] {
+        let turns_itself = self.commons.read(loc::ROTARY_TIP_OUTPUT)
+            == loc::RotaryTipOutput::ToolTipControl
+            || self.commons.read(loc::ROTARY_FRAME_OUTPUT) == loc::RotaryFrameOutput::TiltedFrame
+            || self.is_mill_turn();
+        [3, 4].map(|axis| {
+            let is_table = self.dialect.tables().any(|table| table == axis);
+            let letter = self.dialect.axes[axis].letter + b'A' - 1;
+            Some(letter).filter(|_| is_table && !turns_itself)
+        })
     }
 
     /// Which way positions count where the only table turns clockwise, 1 or -1. The table turns

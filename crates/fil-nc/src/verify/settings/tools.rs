@@ -48,10 +48,14 @@ impl Settings<'_> {
 
     /// True when a tool change is followed by a length offset of its own.
     pub fn calls_offsets(&self) -> bool {
+        self.calls_named_offsets() && self.commons.read(loc::TOOL_LENGTH_FROM_TOOL)
+    }
+
+    /// LOADTL with OSETNO calls that offset.
+    pub fn calls_named_offsets(&self) -> bool {
         !self.calls_tools_with_offset()
             && self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress
             && self.commons.read(loc::TOOL_LENGTH_CODE).is_some()
-            && self.commons.read(loc::TOOL_LENGTH_FROM_TOOL)
     }
 
     /// `[effects]` says that a text changes the tool.

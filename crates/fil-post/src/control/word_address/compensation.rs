@@ -143,6 +143,10 @@ fn offset_word(control: &mut Control, given: Option<(f64, u16)>) -> Result<()> {
             return PostCode::WordForm
                 .err("CUTCOM: no offset number, and the tool in the spindle is not known");
         }
+        if !control.commons.read(loc::LATHE_DIAMETER) {
+            let message = "CUTCOM: no offset number, and none is taken from the tool";
+            control.warnings.add(PostCode::NoDiameterOffset, message.into());
+        }
         return Ok(());
     };
     let Some(letter) = control.commons.read(loc::CUTCOM_ADDRESS) else {

@@ -11,11 +11,11 @@ use crate::operation::{Coolant, CoolantKind, Pressure};
 /// Writes the coolant code, in a block of its own or with a motion; OFF at once.
 ///
 /// # Errors
-/// A pressure of a usual coolant that has none; as [`Control::write_block`].
+/// As [`Control::write_block`].
 pub fn write(control: &mut Control, coolant: Coolant) -> Result<()> {
     let at = match coolant {
         Coolant::Off => return off(control),
-        Coolant::On(kind, pressure) => of_the_machine(control, kind, pressure)?,
+        Coolant::On(kind, pressure) => of_the_machine(control, kind, pressure),
     };
     let changes = control.coolant.replace(at).is_some_and(|before| before != at);
     if changes && control.commons.read(loc::COOLANT_PRINT_OFF) {
@@ -47,33 +47,37 @@ fn add(control: &mut Control, at: CodeAt) {
 
 /// The location of the code of a coolant; of its usual pressure where the machine has none for
 /// the one asked for, which is said: the tool must not run dry.
-///
-/// # Errors
-/// As [`location`].
-fn of_the_machine(control: &mut Control, kind: CoolantKind, pressure: Pressure) -> Result<CodeAt> {
-    let at = location(control, kind, pressure)?;
-    if control.code_if_any(at).is_some() {
-        return Ok(at);
+fn of_the_machine(control: &mut Control, kind: CoolantKind, pressure: Pressure) -> CodeAt {
+    let at = location(control, kind, pressure);
+    let usual = location(control, kind, Pressure::Usual);
+    let has_none = pressure != Pressure::Usual && ONE_PRESSURE.contains(&at)
+        || usual != at && control.code_if_any(at).is_none();
+    if !has_none || control.code_if_any(usual).is_none() {
+        return at;
     }
-    let usual = location(control, kind, Pressure::Usual)?;
-    if usual != at && control.code_if_any(usual).is_some() {
-        let message = "the machine has no code for this pressure of the coolant; \
-                       the code of its usual pressure is written";
-        control.warnings.add(PostCode::IgnoredPart, message.into());
-        return Ok(usual);
-    }
-    Ok(at)
+    let message = "the machine has no code for this pressure of the coolant; \
+                   the code of its usual pressure is written";
+    control.warnings.add(PostCode::IgnoredPart, message.into());
+    usual
 }
 
+/// Codes of coolants of one pressure.
+const ONE_PRESSURE: [CodeAt; 4] = [
+    loc::COOLANT_DEFAULT_CODE,
+    loc::COOLANT_MIST_CODE,
+    loc::COOLANT_TAP_CODE,
+    loc::COOLANT_AIR_CODE,
+];
+
 /// The location of the code of a coolant.
-///
-/// # Errors
-/// A pressure where the machine's usual coolant is neither flood nor through the tool.
-fn location(control: &Control, kind: CoolantKind, pressure: Pressure) -> Result<CodeAt> {
+fn location(control: &Control, kind: CoolantKind, pressure: Pressure) -> CodeAt {
     use Pressure as P;
-    Ok(match (kind, pressure) {
+    match (kind, pressure) {
         (CoolantKind::Default, P::Usual) => loc::COOLANT_DEFAULT_CODE,
-        (CoolantKind::Default, _) => return location(control, usual_kind(control)?, pressure),
+        (CoolantKind::Default, _) => match usual_kind(control) {
+            Some(kind) => location(control, kind, pressure),
+            None => loc::COOLANT_DEFAULT_CODE,
+        },
         (CoolantKind::Mist, _) => loc::COOLANT_MIST_CODE,
         (CoolantKind::Tap, _) => loc::COOLANT_TAP_CODE,
         (CoolantKind::Air, _) => loc::COOLANT_AIR_CODE,
@@ -84,23 +88,16 @@ fn location(control: &Control, kind: CoolantKind, pressure: Pressure) -> Result<
         (CoolantKind::Through, P::Low) => loc::COOLANT_THRU_LOW_CODE,
         (CoolantKind::Through, P::Medium) => loc::COOLANT_THRU_MEDIUM_CODE,
         (CoolantKind::Through, P::Usual | P::High) => loc::COOLANT_THRU_HIGH_CODE,
-    })
+    }
 }
 
-/// The kind whose usual code is that of COOLNT/ON.
-///
-/// # Errors
-/// It is a kind without pressures.
-fn usual_kind(control: &Control) -> Result<CoolantKind> {
+/// The kind with pressures whose usual code is that of COOLNT/ON.
+fn usual_kind(control: &Control) -> Option<CoolantKind> {
     let usual = control.code_if_any(loc::COOLANT_DEFAULT_CODE);
     let kinds = [
         (CoolantKind::Flood, loc::COOLANT_FLOOD_CODE),
         (CoolantKind::Through, loc::COOLANT_THRU_HIGH_CODE),
     ];
     let found = kinds.iter().find(|(_, at)| usual.is_some() && control.code_if_any(*at) == usual);
-    found.map(|(kind, _)| *kind).ok_or_else(|| {
-        PostCode::WordForm.diag(
-            "COOLNT: a pressure with ON, and the code of ON is neither that of FLOOD nor of THRU",
-        )
-    })
+    found.map(|(kind, _)| *kind)
 }

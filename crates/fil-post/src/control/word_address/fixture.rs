@@ -21,6 +21,8 @@ use crate::errors::PostCode;
 pub fn write(control: &mut Control, number: Option<i64>) -> Result<()> {
     prepare(control)?;
     match (number, control.commons.read(loc::FIXTURE_FORM)) {
+        // A control with further offsets alone (G15 H1 of an OSP) has no G54.
+        (None, FixtureForm::GCode) if has_no_plain(control) => code(control, 1)?,
         (None, FixtureForm::GCode) => {
             let code = control.code(loc::FIXTURE_DEFAULT_CODE, "SET/OFSETL without a number")?;
             control.g(code);
@@ -86,6 +88,13 @@ fn place(control: &mut Control) -> Result<()> {
 /// The axes count from the zero of the offset, which is the one before it if that stays.
 fn counts_anew(control: &mut Control, stays: bool) {
     if stays { control.state.doubt_axes() } else { control.state.shift_axes(Source::Post) }
+}
+
+/// True for a control whose work offsets are further ones alone.
+fn has_no_plain(control: &Control) -> bool {
+    let bounds = [loc::FIXTURE_MIN_CODE, loc::FIXTURE_MAX_CODE].map(|at| control.commons.read(at));
+    let has_further = control.commons.int_opt(loc::FIXTURE_EXTENDED_CODE).is_some_and(|it| it > 0);
+    matches!(bounds, [Some(first), Some(last)] if last < first) && has_further
 }
 
 /// Adds the code of an offset: the n-th from the lowest one, a further one with its own

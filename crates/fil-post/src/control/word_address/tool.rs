@@ -144,6 +144,38 @@ fn without_code(control: &mut Control, tool: i64) -> Result<()> {
     Ok(())
 }
 
+/// Warns of a length offset that another tool has called: the offsets are one table for all tools.
+fn warn_of_shared_offset(control: &mut Control, wanted: ToolChange) {
+    let first = *control.tools.of_offset.entry(wanted.offset).or_insert(wanted.tool);
+    if first != wanted.tool {
+        let message =
+            format!("tools {first} and {} have one length offset, {}", wanted.tool, wanted.offset);
+        control.warnings.add(PostCode::SharedOffset, message);
+    }
+}
+
+/// A tool for which no length offset is called.
+///
+/// # Errors
+/// The offset of the tool before it, which OSETNO has called, would stay in force.
+fn without_offset(control: &mut Control, wanted: ToolChange, has_code: bool) -> Result<()> {
+    if let Some(before) = control.state.get(modal::LENGTH_OFFSET).filter(|_| has_code) {
+        return PostCode::NoCode.err_with(
+            format!("LOADTL names no offset, and offset {before} of the tool before is in force"),
+            "Give LOADTL its OSETNO, or set tool.length_from_tool = 1, by which the offset has the \
+             number of the tool.",
+        );
+    }
+    if wanted.offset_given && wanted.offset != wanted.tool {
+        let message = format!(
+            "LOADTL asks for offset {}, and the machine calls no length offset",
+            wanted.offset
+        );
+        control.warnings.add(PostCode::IgnoredPart, message);
+    }
+    Ok(())
+}
+
 /// Calls the length offset: with the Z position of the machine (own location
 /// `tool.length_z`) in a block of its own, else with the next Z motion.
 fn length_offset(
@@ -156,16 +188,13 @@ fn length_offset(
         control.await_length(control.tip.offset);
         return Ok(());
     }
-    let calls = control.commons.read(loc::TOOL_LENGTH_FROM_TOOL);
-    let Some(code) = control.code_if_any(loc::TOOL_LENGTH_CODE).filter(|_| calls) else {
-        if wanted.offset_given && wanted.offset != wanted.tool {
-            return PostCode::NoCode.err(format!(
-                "LOADTL asks for offset {}, and the machine calls no length offset",
-                wanted.offset
-            ));
-        }
-        return Ok(());
+    // OSETNO names the offset itself; else it is the number of the tool, where the machine says so.
+    let calls = control.commons.read(loc::TOOL_LENGTH_FROM_TOOL) || wanted.offset_given;
+    let code = control.code_if_any(loc::TOOL_LENGTH_CODE);
+    let Some(code) = code.filter(|_| calls) else {
+        return without_offset(control, wanted, code.is_some());
     };
+    warn_of_shared_offset(control, wanted);
     if let Some(cancel) = control.code_if_any(loc::TOOL_LENGTH_CANCEL_CODE) {
         control.g_of_record(cancel);
         control.write_block()?;
