@@ -90,7 +90,7 @@ pub fn check(commons: &Commons, cl: &str, nc: &str, allowed: Allowed) -> Result<
 /// # Panics
 /// Settings that are no machine.
 pub fn found(ready: &str, settings: &[&str], cl: &str, nc: &str) -> String {
-    let start = Program::builder().ready(ready);
+    let start = Program::builder().generic(ready);
     let post = settings.iter().fold(start, |builder, setting| builder.set(setting));
     let post = post.build().expect("a machine");
     let cl = format!("UNITS / MM\n{}\nFINI\n", cl.replace("; ", "\n"));

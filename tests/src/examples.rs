@@ -76,7 +76,7 @@ pub fn run(block: &Block<'_>) -> Option<Vec<Diag>> {
     }
     let value = |name: &str| marks.iter().find_map(|mark| mark.strip_prefix(name));
     let mut builder = Program::builder()
-        .ready(value("post=").unwrap_or("fanuc-mill"))
+        .generic(value("post=").unwrap_or("fanuc-mill"))
         .strict(marks.contains(&"strict"));
     for setting in marks.iter().filter_map(|mark| mark.strip_prefix("set=")) {
         builder = builder.set(setting);
@@ -129,7 +129,7 @@ fn post(builder: filpost::Builder, cl: &str) -> Vec<Diag> {
 
 /// What `filpost check` says of a FIL file for the ready post fanuc-mill.
 pub fn check(fil: &str) -> Vec<Diag> {
-    let post = Program::builder().ready("fanuc-mill").build().expect("the ready post");
+    let post = Program::builder().generic("fanuc-mill").build().expect("the ready post");
     let options = filpost::check::Options { machine: Some(post.commons()), ..Default::default() };
     filpost::check::check(&[("macros.fil", fil)], options)
 }

@@ -20,7 +20,7 @@ pub fn run(path: &Path) -> Result<(), String> {
     let text = files::read_text(path, None).map_err(|error| error.to_string())?;
     let mut expected = listed(&text);
     let header = |key: &str| text.lines().find_map(|line| line.strip_prefix(key));
-    let post = header("$$ post: ").map(|name| Program::builder().ready(name.trim()).build());
+    let post = header("$$ post: ").map(|name| Program::builder().generic(name.trim()).build());
     let post = post.transpose().map_err(|error| error.to_string())?;
     let options = Options {
         strict: header("$$ strict").is_some(),

@@ -59,7 +59,7 @@ impl Head {
     /// Settings that are none.
     pub fn dialect(&self) -> Result<Dialect, String> {
         let name = self.post.as_deref().unwrap_or("fanuc-mill");
-        let mut builder = Program::builder().ready(name);
+        let mut builder = Program::builder().generic(name);
         for setting in &self.settings {
             builder = builder.set(setting);
         }

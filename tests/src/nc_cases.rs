@@ -144,7 +144,7 @@ pub fn posted(path: &Path) -> Vec<NcCase> {
 pub fn posted_by(ready: &str, path: &Path) -> Option<NcCase> {
     let cl = fs::read(path).expect("a CL file");
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let post = Program::builder().ready(ready).build().ok()?;
+    let post = Program::builder().generic(ready).build().ok()?;
     Some(NcCase { name: format!("{ready}/{name}"), nc: run(&post, &cl)?, cl, post, fil: false })
 }
 

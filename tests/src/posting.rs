@@ -120,7 +120,7 @@ impl Prepared {
     /// Settings or scripts that make no post.
     fn new(job: &Job) -> Result<Self, Refused> {
         let mut builder = match &job.machine {
-            Machine::Ready(name) => Program::builder().ready(name),
+            Machine::Ready(name) => Program::builder().generic(name),
             Machine::Toml(text) => Program::builder().machine("machine.toml", text),
             Machine::OptionFile(text) => Program::builder().option_file("uncx01.p01", text),
         };

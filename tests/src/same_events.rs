@@ -155,7 +155,7 @@ mod tests {
     use crate::back_check;
 
     fn are_same(one: &str, other: &str) -> bool {
-        let post = filpost::Program::builder().ready("fanuc-mill").build().expect("a post");
+        let post = filpost::Program::builder().generic("fanuc-mill").build().expect("a post");
         let commons: &Commons = post.commons();
         let events = |nc: &str| {
             back_check::events(

@@ -89,7 +89,7 @@ impl Machine {
     pub fn builder(&self) -> Builder {
         let settings = COMMON.iter().chain(self.settings);
         settings
-            .fold(Program::builder().ready("fanuc-mill"), |builder, setting| builder.set(setting))
+            .fold(Program::builder().generic("fanuc-mill"), |builder, setting| builder.set(setting))
     }
 
     /// The post of the machine.

@@ -120,7 +120,7 @@ fn section(example: &Example<'_>, compat: &str) -> String {
 
 /// What the word-address control writes for the lines of the example.
 fn written(example: &Example<'_>, cl: &str, first: u32) -> String {
-    let builder = Program::builder().ready(example.post);
+    let builder = Program::builder().generic(example.post);
     let builder = example.settings.iter().fold(builder, |builder, setting| builder.set(setting));
     let program = builder.build().expect("a ready post with settings that agree");
     let post = match &example.settings[..] {

@@ -83,7 +83,7 @@ impl Header {
     /// # Errors
     /// Settings or FIL that make no post.
     pub fn post(&self) -> Result<Program, Error> {
-        let mut builder = Program::builder().ready(self.post.as_deref().unwrap_or("fanuc-mill"));
+        let mut builder = Program::builder().generic(self.post.as_deref().unwrap_or("fanuc-mill"));
         let bare = if self.whole { &[] } else { BARE };
         // The plane of a SINUMERIK lathe says along which axes the lengths of its tools count.
         let turns = ["sinumerik-lathe", "sinumerik-mill-turn"];

@@ -46,8 +46,8 @@ fn memory_stays_flat() {
     let asked = std::env::var("FILPOST_SOAK").ok().and_then(|count| count.parse().ok());
     let posts: usize = asked.unwrap_or(FEW);
     let cl = std::fs::read(root().join("tests/cl/holes.ncl.1")).expect("a CL file");
-    let plain = Program::builder().ready("fanuc-mill").build().expect("a post");
-    let scripted = Program::builder().ready("fanuc-mill").fil("soak.fil", SCRIPT).build();
+    let plain = Program::builder().generic("fanuc-mill").build().expect("a post");
+    let scripted = Program::builder().generic("fanuc-mill").fil("soak.fil", SCRIPT).build();
     let scripted = scripted.expect("a post with a script");
     let mut early = None;
     for number in 0..posts {
@@ -59,7 +59,7 @@ fn memory_stays_flat() {
             2 => scripted.run(&cl[..], &mut nc),
             1 => {
                 // The machine and the script are built anew.
-                let post = Program::builder().ready("fanuc-mill").fil("soak.fil", SCRIPT);
+                let post = Program::builder().generic("fanuc-mill").fil("soak.fil", SCRIPT);
                 post.build().expect("a post").run(&cl[..], &mut nc)
             }
             _ => plain.run(&cl[..], &mut nc),
@@ -102,7 +102,7 @@ fn turns(count: u32) -> Vec<u8> {
 #[test]
 fn a_circle_of_many_turns_does_not_stay_in_memory() {
     let _alone = ALONE.lock();
-    let post = || Program::builder().ready("fanuc-mill").set("circle.max_degrees=90");
+    let post = || Program::builder().generic("fanuc-mill").set("circle.max_degrees=90");
     let plain = post().build().expect("a post");
     let (mut few, mut many) = (Count(0), Count(0));
     plain.run(&turns(2)[..], &mut few).expect("a program of two turns");

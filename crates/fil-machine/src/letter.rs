@@ -90,6 +90,8 @@ pub mod letters {
     pub const S: Letter = Letter::of(b'S');
     /// Tool.
     pub const T: Letter = Letter::of(b'T');
+    /// Increments along X, Y and Z of a lathe.
+    pub const UVW: [Letter; 3] = [Letter::of(b'U'), Letter::of(b'V'), Letter::of(b'W')];
     /// The linear axes.
     pub const XYZ: [Letter; 3] = [Letter::of(b'X'), Letter::of(b'Y'), Letter::of(b'Z')];
 }

@@ -255,6 +255,10 @@ class Builder {
         detail::check(filpost_builder_over(handle.get(), name.c_str(), text.c_str()));
         return *this;
     }
+    Builder &option(const std::string &name, const std::string &value) {
+        detail::check(filpost_builder_option(handle.get(), name.c_str(), value.c_str()));
+        return *this;
+    }
     Builder &set(const std::string &setting) {
         detail::check(filpost_builder_set(handle.get(), setting.c_str()));
         return *this;

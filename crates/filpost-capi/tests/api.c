@@ -48,6 +48,7 @@ static filpost_program *mill(void) {
     filpost_builder *builder = filpost_builder_new();
     filpost_program *program = NULL;
     well(filpost_builder_ready(builder, "fanuc-mill"));
+    well(filpost_builder_option(builder, "style", "plain"));
     well(filpost_builder_build(builder, &program));
     MUST(program != NULL && filpost_program_warning_count(program) == 0);
     return program;

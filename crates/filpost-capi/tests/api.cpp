@@ -39,6 +39,7 @@ filpost::Program program() {
     };
     return filpost::Builder()
         .ready("fanuc-mill")
+        .option("style", "plain")
         .set("rapid.split=0")
         .fil("raise.fil", FIL)
         .limit("fuel", 1000)
@@ -107,7 +108,7 @@ int main() {
     } catch (const filpost::Error &error) {
         MUST(error.cancelled);
     }
-    auto mill = filpost::Builder().ready("fanuc-mill").build();
+    auto mill = filpost::Builder().ready("fanuc-mill").option("style", "plain").build();
     MUST(mill.verify(CL, mill.run(CL).nc()).find("\"agrees\"") != std::string::npos);
     std::puts("C++: all as it must be");
 }

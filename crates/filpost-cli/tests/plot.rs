@@ -89,7 +89,8 @@ fn a_program_of_another_dialect_is_refused_and_nothing_written() {
 fn a_program_whose_machine_nobody_names_is_read_by_the_family_of_its_text() {
     let place = Folder::new();
     for post in ["heidenhain-tnc640", "sinumerik-840d"] {
-        let posted = place.run(&["post", "a part.ncl", "-p", post, "-o", "out.nc"]);
+        let plain = "--option=style=plain";
+        let posted = place.run(&["post", "a part.ncl", "-p", post, plain, "-o", "out.nc"]);
         assert_eq!(posted.status.code(), Some(0), "{}", text(&posted.stderr));
         let verified = place.run(&["verify", "a part.ncl", "out.nc"]);
         assert!(text(&verified.stderr).contains(post), "{}", text(&verified.stderr));

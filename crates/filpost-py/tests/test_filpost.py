@@ -21,6 +21,7 @@ FINI
 
 
 def mill(**more):
+    more.setdefault("options", {"style": "plain"})
     return filpost.Program(ready="fanuc-mill", **more)
 
 

@@ -16,6 +16,7 @@ CALL = "CIMFIL/ON,LOADTL\nX=CALLF(POSTF(7,4))\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n
 
 
 def mill(**more):
+    more.setdefault("options", {"style": "plain"})
     return filpost.Program(ready="fanuc-mill", **more)
 
 

@@ -72,7 +72,7 @@ fn main() -> Outcome<()> {
 
 /// Nanoseconds and blocks a GOTO, the best of several runs.
 fn post(row: &Row, (points, repeats): (u32, usize), cl: &Path) -> Outcome<(f64, f64)> {
-    let mut builder = filpost::Program::builder().ready(row.post);
+    let mut builder = filpost::Program::builder().generic(row.post);
     for setting in row.settings {
         builder = builder.set(setting);
     }

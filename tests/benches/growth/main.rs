@@ -80,7 +80,7 @@ fn main() -> Outcome<()> {
 /// Posts a file with a FIL text or none; the time in seconds.
 fn post(fil: Option<&str>, cl: &Path, nc: &Path) -> Outcome<f64> {
     let start = Instant::now();
-    let mut builder = filpost::Program::builder().ready(POST);
+    let mut builder = filpost::Program::builder().generic(POST);
     if let Some(fil) = fil {
         builder = builder.fil("bench.fil", fil);
     }

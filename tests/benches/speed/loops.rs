@@ -54,7 +54,7 @@ fn checked((results, seconds): Run, expected: &[f64]) -> Outcome<Lap> {
 /// Runs the loop as the global area of a FIL file, and a record so that the
 /// results come out.
 fn fil() -> Outcome<Run> {
-    let builder = filpost::Program::builder().ready("linuxcnc-mill").fil("loop.fil", LOOP);
+    let builder = filpost::Program::builder().generic("linuxcnc-mill").fil("loop.fil", LOOP);
     let post = builder.build().map_err(|error| format!("{error:?}"))?;
     let mut nc = Vec::new();
     let cl = "FROM / 0, 0, 0\nFINI\n";

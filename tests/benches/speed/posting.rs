@@ -88,7 +88,7 @@ fn post_mapped(cl: &Path, nc: &Path) -> Outcome<()> {
 }
 
 fn builder() -> filpost::Builder {
-    filpost::Program::builder().ready("linuxcnc-mill")
+    filpost::Program::builder().generic("linuxcnc-mill")
 }
 
 /// Runs one of the scripts beside this file.

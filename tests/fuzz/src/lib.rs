@@ -49,7 +49,7 @@ FINI
 
 /// The ready posts, read once.
 static READY: LazyLock<Vec<Commons>> = LazyLock::new(|| {
-    let built = |name: &str| Program::builder().ready(name).build().expect("a ready post is right");
+    let built = |name: &str| Program::builder().generic(name).build().expect("a ready post is right");
     filpost::ready::READY.iter().map(|post| built(post.name).commons().clone()).collect()
 });
 

@@ -32,7 +32,7 @@ fn post_with(
     scripts: &[&str],
     cl: &str,
 ) -> Result<(String, Vec<String>), Error> {
-    let mut builder = Program::builder().ready("fanuc-lathe");
+    let mut builder = Program::builder().generic("fanuc-lathe");
     for setting in settings {
         builder = builder.set(setting);
     }
@@ -297,7 +297,7 @@ fn a_changed_script_is_found() {
         let changed = script.replacen(old, new, 1);
         assert_ne!(changed, script, "{old} is not there");
         let found = [worm(), two_starts()].iter().any(|thread| {
-            let post = Program::builder().ready("fanuc-lathe").set(ONE_BLOCK[0]);
+            let post = Program::builder().generic("fanuc-lathe").set(ONE_BLOCK[0]);
             let post = with_script(post, SCRIPT, &changed).build();
             let post = post.as_ref().expect("the script is sound");
             let mut nc = Vec::new();

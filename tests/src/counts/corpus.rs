@@ -51,7 +51,7 @@ impl Part {
                 header.post().map(Prepared::of)
             }
             Recipe::Ready(name) => {
-                let mut builder = Program::builder().ready(name);
+                let mut builder = Program::builder().generic(name);
                 if let Some(setting) = &setting {
                     builder = builder.set(setting);
                 }

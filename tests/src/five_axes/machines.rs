@@ -124,7 +124,7 @@ impl Machine {
     /// # Errors
     /// Settings that contradict each other.
     pub fn post(&self) -> Result<Program, Error> {
-        let start = Program::builder().ready(self.ready);
+        let start = Program::builder().generic(self.ready);
         self.settings.iter().fold(start, |builder, setting| builder.set(setting)).build()
     }
 

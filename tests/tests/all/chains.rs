@@ -21,7 +21,7 @@ const UPRIGHT: f64 = 2e-5;
 
 fn machine(name: &str) -> Program {
     let chain = format!("chain=\"{name}\"");
-    Program::builder().ready("fanuc-mill").set(&chain).build().expect("a machine")
+    Program::builder().generic("fanuc-mill").set(&chain).build().expect("a machine")
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn a_chain_is_drawn_from_the_part_to_the_tool() {
 
 #[test]
 fn a_chain_that_is_not_there_is_refused() {
-    let built = Program::builder().ready("fanuc-mill").set("chain=\"tables-xy\"").build();
+    let built = Program::builder().generic("fanuc-mill").set("chain=\"tables-xy\"").build();
     let error = built.expect_err("refused").to_string();
     assert!(error.contains("E0605") && error.contains("tables-xy"), "{error}");
 }

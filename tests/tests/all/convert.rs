@@ -67,7 +67,7 @@ fn round_trip(
 
 /// Machines of three and five axes, and a lathe.
 fn machines() -> Vec<Program> {
-    let ready = |name: &str| Program::builder().ready(name).build().unwrap();
+    let ready = |name: &str| Program::builder().generic(name).build().unwrap();
     vec![ready("fanuc-mill"), ready("fanuc-lathe"), tip_program::MACHINES[0].post()]
 }
 

@@ -52,7 +52,7 @@ impl Act {
 
 /// What the program of a machine with or without cycles does.
 fn acts(cl: &str, cycles: bool, more: &[String]) -> (String, Vec<Act>) {
-    let mut builder = Program::builder().ready("fanuc-mill").set("units.mode=2").set(PECK_GAP);
+    let mut builder = Program::builder().generic("fanuc-mill").set("units.mode=2").set(PECK_GAP);
     for (key, code) in CODES {
         builder = builder.set(&format!("{key}={}", if cycles { code } else { "none" }));
     }
@@ -172,7 +172,7 @@ proptest! {
 /// Single moves can't keep a tap in step with the spindle.
 #[test]
 fn a_tap_is_never_single_moves() {
-    let builder = Program::builder().ready("fanuc-mill").set("units.mode=2");
+    let builder = Program::builder().generic("fanuc-mill").set("units.mode=2");
     let post = builder.set("cycle.tap_code=none").build().expect("a machine");
     let cl = "SPINDL/RPM,500,CLW\nRAPID\nGOTO/0,0,10\nCYCLE/TAP,DEPTH,8,MMPR,1,CLEAR,2\nGOTO/0,0,0\nFINI\n";
     let refused = post.run(cl.as_bytes(), Vec::new()).expect_err("refused");

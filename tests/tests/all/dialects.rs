@@ -123,7 +123,7 @@ fn motions(records: &[Record], vocabulary: &Vocabulary) -> String {
 
 /// The program, and what was said of it.
 fn post(text: &str, dialect: Option<ClDialect>) -> Result<(String, Report), Error> {
-    let program = Program::builder().ready("linuxcnc-mill").build()?;
+    let program = Program::builder().generic("linuxcnc-mill").build()?;
     let mut nc = Vec::new();
     let reading = Options { dialect, ..Options::default() };
     let report = program.start().reading(reading).run(text.as_bytes(), &mut nc)?;

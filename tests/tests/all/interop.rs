@@ -49,7 +49,7 @@ fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
 
 /// The NC program a ready post makes of a CL file.
 fn post_with(ready: &str, cl: &Path) -> Vec<u8> {
-    let post = filpost::Program::builder().ready(ready).build().unwrap();
+    let post = filpost::Program::builder().generic(ready).build().unwrap();
     let mut nc = Vec::new();
     let input = io::BufReader::new(File::open(cl).unwrap());
     post.run(input, &mut nc).unwrap_or_else(|error| panic!("{}: {error}", cl.display()));
@@ -172,7 +172,7 @@ fn motions_and_feeds(calls: &[Call]) -> (Vec<&Canon>, Vec<f64>) {
 #[test]
 fn inverse_time_is_the_feed_of_the_cl_file() {
     let Some(program) = rs274::program() else { return };
-    let post = filpost::Program::builder().ready("linuxcnc-mill").build().unwrap();
+    let post = filpost::Program::builder().generic("linuxcnc-mill").build().unwrap();
     let run = |cl: &str| {
         let mut nc = Vec::new();
         post.run(cl.as_bytes(), &mut nc).unwrap();

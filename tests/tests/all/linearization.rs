@@ -68,7 +68,7 @@ fn post(rotaries: &[Rotary; 2], pivot: Option<f64>, tolerance: f64, form: u8) ->
             settings.extend(parts.iter().zip(names).map(part));
         }
     }
-    let builder = Program::builder().ready("fanuc-mill");
+    let builder = Program::builder().generic("fanuc-mill");
     settings.iter().fold(builder, |builder, set| builder.set(set)).build().expect("a machine")
 }
 

@@ -48,7 +48,7 @@ fn seeds() -> std::ops::Range<u64> {
 }
 
 fn post() -> Program {
-    Program::builder().ready("fanuc-mill-turn").build().unwrap()
+    Program::builder().generic("fanuc-mill-turn").build().unwrap()
 }
 
 /// The same machine with the cycles of holes, and rigid taps; settings that say what its control
@@ -57,12 +57,12 @@ fn post_with_cycles(pecks: &[&str]) -> Program {
     let cycles =
         ["mill_turn.face_drill_code=83", "mill_turn.side_drill_code=87", "cycle.rigid_tap_mode=29"];
     let settings = cycles.iter().chain(pecks);
-    let base = Program::builder().ready("fanuc-mill-turn");
+    let base = Program::builder().generic("fanuc-mill-turn");
     settings.fold(base, |builder, setting| builder.set(setting)).build().unwrap()
 }
 
 fn sinumerik() -> Program {
-    Program::builder().ready("sinumerik-mill-turn").build().unwrap()
+    Program::builder().generic("sinumerik-mill-turn").build().unwrap()
 }
 
 #[test]

@@ -38,7 +38,7 @@ fn ready_programs_are_read_as_linuxcnc_reads_them() {
     files.extend(files_in(&here.join("words"), ".ncl"));
     files.extend(files_in(&data.join("cl/creo"), ".ncl"));
     let steps_compared = |cl: &Path| {
-        let post = filpost::Program::builder().ready("linuxcnc-mill").build().unwrap();
+        let post = filpost::Program::builder().generic("linuxcnc-mill").build().unwrap();
         let dialect = Dialect::new(post.commons()).unwrap();
         let mut nc = Vec::new();
         if post.run(fs::File::open(cl).unwrap(), &mut nc).is_err() {
@@ -128,7 +128,7 @@ fn a_real_program_is_read() {
         println!("skipped: {} is not there", file.display());
         return;
     };
-    let builder = filpost::Program::builder().ready("fanuc-mill");
+    let builder = filpost::Program::builder().generic("fanuc-mill");
     let post = builder.set("units.inch_code=70").set("units.metric_code=71").build().unwrap();
     let events = events(&nc, "real.nc", &Dialect::new(post.commons()).unwrap()).unwrap();
     let count = |wanted: fn(&Event) -> bool| events.iter().filter(|event| wanted(event)).count();

@@ -40,8 +40,8 @@ fn run(
 ) -> Result<(Vec<String>, Vec<u8>), String> {
     let mut failure = String::new();
     for base in [
-        Program::builder().ready("fanuc-mill"),
-        Program::builder().ready("fanuc-lathe"),
+        Program::builder().generic("fanuc-mill"),
+        Program::builder().generic("fanuc-lathe"),
         tip_program::MACHINES[0].builder(),
     ] {
         let mut builder = if fil.is_empty() { base } else { base.fil("form.fil", fil) };

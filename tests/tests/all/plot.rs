@@ -67,7 +67,7 @@ fn cl_text(text: Text<'_>) -> ClText<'_> {
 /// The drawing of [`CL`], posted with [`FIL`], with the notes of its map.
 fn drawing() -> Drawing {
     let fil = FIL.replace("(G)", "7").replace("(X)", "24").replace("(Y)", "25");
-    let post = Program::builder().ready("fanuc-mill").fil("mill.fil", &fil).build().unwrap();
+    let post = Program::builder().generic("fanuc-mill").fil("mill.fil", &fil).build().unwrap();
     let names =
         map::Names { cl: "part.ncl".into(), nc: "out.nc".into(), fil: vec!["mill.fil".into()] };
     let (mut nc, mut lines) = (Vec::new(), Vec::new());
@@ -95,7 +95,7 @@ fn spiral(count: u32) -> Drawing {
         nc.push_str(&format!("G1 X{:.3} Y{:.3}\n", radius * cosine, radius * sine));
     }
     nc.push_str("M30\n");
-    let post = Program::builder().ready("fanuc-mill").build().unwrap();
+    let post = Program::builder().generic("fanuc-mill").build().unwrap();
     plot::program(Text { name: "spiral.nc", bytes: nc.as_bytes() }, post.commons()).unwrap()
 }
 
@@ -212,7 +212,7 @@ FINI
 
 #[test]
 fn a_live_tool_of_a_lathe_lies_as_in_the_cl_file() {
-    let post = Program::builder().ready("fanuc-mill-turn").build().unwrap();
+    let post = Program::builder().generic("fanuc-mill-turn").build().unwrap();
     let mut nc = Vec::new();
     post.start().run(Cursor::new(RADIAL), &mut nc).unwrap();
     let text = Text { name: "out.nc", bytes: &nc };
@@ -243,14 +243,14 @@ fn a_live_tool_of_a_lathe_lies_as_in_the_cl_file() {
 
 /// A program as it is drawn for a ready post.
 fn page_of(ready: &str, name: &str, nc: &str) -> String {
-    let post = Program::builder().ready(ready).build().unwrap();
+    let post = Program::builder().generic(ready).build().unwrap();
     html(&plot::program(Text { name, bytes: nc.as_bytes() }, post.commons()).unwrap())
 }
 
 #[test]
 fn a_tilting_tool_shows_its_axis() {
     let Some(browser) = browser::program() else { return };
-    let post = Program::builder().ready("fanuc-5x-tables").build().unwrap();
+    let post = Program::builder().generic("fanuc-5x-tables").build().unwrap();
     let mut nc = Vec::new();
     post.start().run(Cursor::new(TILTED), &mut nc).unwrap();
     let text = Text { name: "out.nc", bytes: &nc };
@@ -306,7 +306,7 @@ fn a_program_without_motions_opens() {
 
 /// A drawing of the program that a ready post makes of a CL file.
 fn posted(ready: &str, cl: &str) -> Drawing {
-    let post = Program::builder().ready(ready).build().unwrap();
+    let post = Program::builder().generic(ready).build().unwrap();
     let mut nc = Vec::new();
     post.start().run(Cursor::new(cl.to_string()), &mut nc).unwrap();
     plot::program(Text { name: "out.nc", bytes: &nc }, post.commons()).unwrap()
@@ -395,7 +395,7 @@ FINI
 /// A lathe's page says so, and holds what is in force.
 #[test]
 fn a_lathe_is_drawn_lying() {
-    let post = Program::builder().ready("fanuc-lathe").build().unwrap();
+    let post = Program::builder().generic("fanuc-lathe").build().unwrap();
     let nc = "G21 G18 G97 S500 M3\nT0101\nG0 X40. Z2.\nG99 G1 Z-20. F0.2\nX44.\nM30\n";
     let drawing =
         plot::program(Text { name: "out.nc", bytes: nc.as_bytes() }, post.commons()).unwrap();
@@ -461,7 +461,7 @@ fn notes_name_the_fil_line() {
 
 #[test]
 fn a_map_of_another_program_is_refused() {
-    let post = Program::builder().ready("fanuc-mill").build().unwrap();
+    let post = Program::builder().generic("fanuc-mill").build().unwrap();
     let names = map::Names { cl: "part.ncl".into(), nc: "out.nc".into(), fil: vec![] };
     let (mut nc, mut lines) = (Vec::new(), Vec::new());
     post.start().run_mapped(Cursor::new(CL), &mut nc, &names, &mut lines).unwrap();

@@ -9,7 +9,7 @@ use serde_json::Value;
 /// What `tests/plot/hands.js` says of the page of a program; `None` without a browser.
 fn said(ready: &str, nc: &str) -> Option<Value> {
     let browser = browser::program()?;
-    let post = Program::builder().ready(ready).build().unwrap();
+    let post = Program::builder().generic(ready).build().unwrap();
     let text = Text { name: "out.nc", bytes: nc.as_bytes() };
     let page = html(&plot::program(text, post.commons()).unwrap());
     let script = include_str!("../../plot/hands.js");

@@ -233,7 +233,7 @@ fn verify_finds_nothing_in_programs_of_lathes() {
             if nc.starts_with("refused") || is_left_out(&program) {
                 continue;
             }
-            let mut post = filpost::Program::builder().ready(program.setup.ready);
+            let mut post = filpost::Program::builder().generic(program.setup.ready);
             for setting in &program.setup.settings {
                 post = post.set(setting);
             }

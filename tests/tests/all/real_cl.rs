@@ -42,7 +42,7 @@ impl Machine {
             Machine::Tables => ("fanuc-mill", &tables),
             Machine::Lathe => ("fanuc-lathe", &["spindle.css_limit=3000"]),
         };
-        let builder = filpost::Program::builder().ready(ready);
+        let builder = filpost::Program::builder().generic(ready);
         settings.iter().fold(builder, |builder, setting| builder.set(setting)).build().unwrap()
     }
 }
@@ -339,7 +339,7 @@ fn turned_upright(cl: &[u8]) -> String {
 #[test]
 fn our_klartext_has_the_points_of_the_pairs() {
     let Some(data) = data() else { return };
-    let post = filpost::Program::builder().ready("heidenhain-tnc640").set("rapid.split=0");
+    let post = filpost::Program::builder().generic("heidenhain-tnc640").set("rapid.split=0");
     let post = post.build().unwrap();
     for (part, programs) in PAIRS {
         let (cl, wanted) = pair(&data, part, programs);

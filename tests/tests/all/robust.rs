@@ -66,7 +66,7 @@ proptest! {
     #[test]
     fn records_of_any_form_are_posted_or_refused(cl in program(), ready in 0..4usize) {
         let ready = ["fanuc-mill", "fanuc-lathe", "grbl", "linuxcnc-mill"][ready];
-        let post = Program::builder().ready(ready).build().unwrap();
+        let post = Program::builder().generic(ready).build().unwrap();
         let mut nc = Vec::new();
         let texts = ["PPRINT", "INSERT", "PARTNO"];
         let has_text = cl.lines().any(|line| texts.iter().any(|text| line.starts_with(text)));

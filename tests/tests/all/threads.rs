@@ -387,7 +387,7 @@ fn differ(wanted: &[Cut], found: &[Cut], with_lead: bool) -> Option<String> {
 }
 
 fn post_of(ready: &str, settings: &[&str]) -> Program {
-    let mut builder = Program::builder().ready(ready).set("thread.least_depth=0");
+    let mut builder = Program::builder().generic(ready).set("thread.least_depth=0");
     for setting in settings {
         builder = builder.set(setting);
     }

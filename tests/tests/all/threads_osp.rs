@@ -56,7 +56,7 @@ fn passes(nc: &str) -> (Vec<Pass>, usize) {
 fn post_of(cycle: u32) -> Program {
     let cycle = format!("thread.cycle={cycle}");
     let settings = ["thread.least_depth=0", &cycle];
-    let start = Program::builder().ready("okuma-lathe");
+    let start = Program::builder().generic("okuma-lathe");
     settings.iter().fold(start, |post, setting| post.set(setting)).build().unwrap()
 }
 

@@ -72,7 +72,7 @@ fn thread(seed: u64) -> String {
 #[test]
 fn threads_with_the_settings_of_the_posts_agree() {
     for (ready, settings) in MACHINES {
-        let start = Program::builder().ready(ready);
+        let start = Program::builder().generic(ready);
         let post = settings.iter().fold(start, |one, setting| one.set(setting)).build().unwrap();
         let said = |seed: u64| {
             let cl = thread(seed);

@@ -136,7 +136,7 @@ fn angles(chain: &AxisChain, random: &mut Random) -> [f64; 2] {
 }
 
 fn post(chain: &str, (ready, settings): (&str, &[&str])) -> Program {
-    let start = Program::builder().ready(ready).set(&format!("chain=\"{chain}\""));
+    let start = Program::builder().generic(ready).set(&format!("chain=\"{chain}\""));
     // Chains of one axis leave the second one of the ready post there.
     let one = ["table-a", "table-b", "head-b"].contains(&chain);
     let start = if one { start.set("rotary.secondary_kind=0") } else { start };

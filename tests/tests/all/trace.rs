@@ -127,7 +127,7 @@ fn an_axis_word_repeats_the_word_it_names() {
     let mut count = 0;
     let entries = std::fs::read_dir(root().join("tests/cl")).expect("CL files");
     for path in entries.map(|entry| entry.expect("an entry").path()) {
-        let post = Program::builder().ready("linuxcnc-mill").build().expect("a post");
+        let post = Program::builder().generic("linuxcnc-mill").build().expect("a post");
         let (mut nc, mut map) = (Vec::new(), Vec::new());
         let cl = Cursor::new(files::read(&path).expect("a CL file"));
         let names = names(&post);
@@ -161,7 +161,7 @@ fn the_example_of_the_page_is_what_is_written() {
     let fil = files::read_text(&folder.join("cover.fil"), None).expect("the FIL file");
     let cl = files::read(&folder.join("cover.ncl")).expect("the CL file");
     let post =
-        Program::builder().ready("fanuc-mill").fil("cover.fil", &fil).build().expect("a post");
+        Program::builder().generic("fanuc-mill").fil("cover.fil", &fil).build().expect("a post");
     let (mut nc, mut map) = (Vec::new(), Vec::new());
     let names =
         Names { cl: "cover.ncl".into(), nc: "cover.nc".into(), fil: vec!["cover.fil".into()] };

@@ -52,7 +52,7 @@ fn targets() -> impl Strategy<Value = Vec<Target>> {
 }
 
 fn post(rotaries: &[Rotary; 2], pivot: Option<f64>, split: bool) -> Program {
-    let mut builder = Program::builder().ready("fanuc-mill");
+    let mut builder = Program::builder().generic("fanuc-mill");
     let mut set = |key: &str, value: f64| {
         let builder_now = std::mem::replace(&mut builder, Program::builder());
         builder = builder_now.set(&format!("{key}={value}"));

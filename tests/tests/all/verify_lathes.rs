@@ -6,7 +6,7 @@ use filpost_tests::back_check::{each_is_found, found};
 /// What a ready post with settings makes of a CL file in mm, without block numbers and with `; `
 /// between blocks, as it stands in the file.
 fn nc_of(ready: &str, settings: &[&str], cl: &str) -> String {
-    let start = Program::builder().ready(ready);
+    let start = Program::builder().generic(ready);
     let post = settings.iter().fold(start, |builder, setting| builder.set(setting));
     let cl = format!("UNITS / MM\n{}\nFINI\n", cl.replace("; ", "\n"));
     let mut nc = Vec::new();

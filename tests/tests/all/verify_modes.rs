@@ -75,7 +75,7 @@ fn what_a_control_may_be_in_is_found() {
 /// system. A work offset that nobody asks for may be allowed.
 #[test]
 fn no_false_alarm_of_texts_and_offsets() {
-    let post = filpost::Program::builder().ready("fanuc-mill").build().expect("a post");
+    let post = filpost::Program::builder().generic("fanuc-mill").build().expect("a post");
     let cl = |text: &str| {
         format!(
             "UNITS / MM\nLOADTL / 1\nSPINDL / 900, CLW\nRAPID\nGOTO / 0, 0, 5\n\
@@ -136,7 +136,7 @@ fn cl_without(cl: &str) -> String {
 /// Seconds of a dwell in Klartext have three decimals, whatever letter other controls use.
 #[test]
 fn a_rounded_dwell_of_klartext_agrees() {
-    let post = filpost::Program::builder().ready("heidenhain-tnc640").build().expect("a post");
+    let post = filpost::Program::builder().generic("heidenhain-tnc640").build().expect("a post");
     let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / 500, CLW\nFEDRAT / 100, MMPM\nGOTO / 0, 0, 0\n\
               DELAY / 3.4375\nGOTO / 1, 2, 3\nFINI\n";
     let mut nc = Vec::new();
@@ -174,7 +174,7 @@ fn what_a_sinumerik_may_be_in_is_found() {
 /// A text of INSERT has its place between two motions.
 #[test]
 fn a_text_of_insert_that_is_moved_is_found() {
-    let post = filpost::Program::builder().ready("fanuc-mill").build().expect("a post");
+    let post = filpost::Program::builder().generic("fanuc-mill").build().expect("a post");
     let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nRAPID\nGOTO / 0, 0, 50\n\
               INSERT / M50\nFEDRAT / 100, MMPM\nGOTO / 1, 0, 50\nGOTO / 2, 0, 50\nFINI\n";
     let mut nc = Vec::new();
@@ -256,7 +256,7 @@ fn what_is_not_switched_on_again_is_found() {
 #[test]
 fn texts_and_words_of_the_user_are_not_those_of_records() {
     let said = |ready: &str, cl: &str, nc: &str| {
-        let post = filpost::Program::builder().ready(ready).build().expect("a machine");
+        let post = filpost::Program::builder().generic(ready).build().expect("a machine");
         let report = back_check::check(post.commons(), cl, nc, Allowed::default());
         listed(&report.expect("a report"))
     };
@@ -281,7 +281,7 @@ fn texts_and_words_of_the_user_are_not_those_of_records() {
 /// Of a helix that turns by less than a last digit only its rise is left.
 #[test]
 fn a_helix_without_a_turn_is_a_line() {
-    let post = filpost::Program::builder().ready("heidenhain-tnc640").build().expect("a machine");
+    let post = filpost::Program::builder().generic("heidenhain-tnc640").build().expect("a machine");
     let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 300, MMPM\nGOTO / 2.2248, 1.6, 0\n\
               CIRCLE / 2.2248, 1.5998, 0, 0, 0, 1, 0.0002\nGOTO / 2.2246, 1.5998, 0.8\nFINI\n";
     let nc = "0 BEGIN PGM 1 MM\n1 TOOL CALL 1 Z\n2 L X+2.225 Y+1.6 Z+0 R0 F300\n3 L Z+0.8\n\

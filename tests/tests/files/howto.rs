@@ -119,7 +119,7 @@ fn example(
     settings: Option<Block<'_>>,
     nc: &Block<'_>,
 ) -> Result<(), Failed> {
-    let mut builder = Program::builder().ready(ready);
+    let mut builder = Program::builder().generic(ready);
     for setting in settings.iter().flat_map(|block| block.text.lines()) {
         builder = builder.set(setting);
     }

@@ -1,6 +1,7 @@
 //! Addresses: which letter is printed how, and what its numbers stand for.
 
 use fil_machine::commons::Commons;
+use fil_machine::locations::{self as loc, HomeFrame};
 
 use super::int;
 use crate::text::Number;
@@ -112,7 +113,10 @@ pub(super) fn addresses(commons: &Commons, lathe: bool) -> [Option<Address>; 26]
         }
     }
     if lathe {
-        add_increments(&mut table);
+        let home = commons.read(loc::HOME_FRAME);
+        let by_increments =
+            matches!(home, HomeFrame::ReferencePoint | HomeFrame::SecondReferencePoint);
+        add_increments(&mut table, by_increments);
     }
     table
 }
@@ -133,12 +137,13 @@ fn address(letter: u8, format: i32, spec: i32) -> Address {
     }
 }
 
-/// On a lathe U, V, W are the increments of X, Y, Z unless they are something else.
-fn add_increments(table: &mut [Option<Address>; 26]) {
+/// On a lathe U, V, W are the increments of X, Y, Z unless they are something else. Where the way
+/// home is one of increments, they are that whatever their format.
+fn add_increments(table: &mut [Option<Address>; 26], goes_home_by_them: bool) {
     for letter in LETTER_U..LETTER_U + 3 {
         let axis = table.iter().flatten().find(|address| address.letter == letter + 3).copied();
         let place = &mut table[usize::from(letter - 1)];
-        if place.is_none() {
+        if place.is_none() || goes_home_by_them {
             *place = axis.map(|axis| Address { increment: true, ..axis });
         }
     }

@@ -94,8 +94,12 @@ impl<C: Steps> Verifier<'_, C> {
                 open[n] = None;
             }
             // Of a lathe both go at once: alone one of them may go through the wall of a groove.
-            let is_whole = !self.settings.is_lathe() || open[..3].iter().all(Option::is_none);
-            let rises = open[2].is_none() && is_whole;
+            // The settings may say that X goes first.
+            let rises = match self.settings.is_lathe() {
+                true if self.settings.goes_home_x_first() => open[0].is_none(),
+                true => open[..3].iter().all(Option::is_none),
+                false => open[2].is_none(),
+            };
             self.check_edge_is_off(cl_line, &found);
             self.stand(&found);
             if astray || !rises {

@@ -23,7 +23,8 @@ impl<C: Steps> Verifier<'_, C> {
             && (self.settings.tool_is_modal() || self.next_tool() != Some(number));
         let changes = !same && self.settings.calls_tools();
         if !changes {
-            return self.expected.change_tool(number, offset, self.settings);
+            self.expected.change_tool(number, offset, self.settings);
+            return self.expected.take_first_offset(self.settings);
         }
         self.await_blocks_before_change();
         let is_first = self.blocks.changes == 0;

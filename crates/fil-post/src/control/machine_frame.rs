@@ -1,11 +1,11 @@
 //! Rapid motions to positions in the frame of the machine: `G53 G0 Z0.`, `L Z+0 R0 FMAX M91`.
 
 use fil_diag::Result;
-use fil_machine::FunctionCode;
 use fil_machine::axes::AxisSet;
 use fil_machine::commons::EMPTY;
-use fil_machine::letters::D;
-use fil_machine::locations::{self as loc, HomeFrame};
+use fil_machine::letters::{D, UVW, XYZ};
+use fil_machine::locations::{self as loc, HomeFrame, HomeLatheOrder};
+use fil_machine::{FunctionCode, Letter};
 
 use super::{Control, full_turn};
 use crate::cause::Cause;
@@ -20,6 +20,13 @@ const MACHINE: FunctionCode = FunctionCode::whole(53);
 /// reference point.
 pub fn is_meant(control: &Control) -> bool {
     control.commons.read(loc::HOME_FRAME) != HomeFrame::OfThePart
+}
+
+/// The letter of increments along an axis of a lathe, where home is the reference point.
+fn of_increments(control: &Control, axis: Letter) -> Option<Letter> {
+    let is_lathe = control.commons.read(loc::LATHE_DIAMETER);
+    let number = XYZ.iter().position(|letter| *letter == axis)?;
+    reference(control).filter(|_| is_lathe).map(|_| UVW[number])
 }
 
 /// The function that goes to the reference point, where home is that.
@@ -63,14 +70,7 @@ pub fn go(control: &mut Control, motion: &Motion, before: Before, cause: Cause) 
              that ends the length of the tool could not be taken back",
         );
     }
-    // Of a lathe neither axis is the one that must go first: as all its rapid motions this is one
-    // block.
-    let is_lathe = control.commons.read(loc::LATHE_DIAMETER);
-    let groups: &[AxisSet] = match is_lathe {
-        true => &[AxisSet::Z.or(AxisSet::XY), AxisSet::ROTARY],
-        false => &[AxisSet::Z, AxisSet::XY, AxisSet::ROTARY],
-    };
-    for group in groups {
+    for group in groups(control) {
         let axes = group.and(motion.axes).and(present);
         if !axes.is_empty() {
             control.because(cause, |control| block(control, &motion.of(axes)))?;
@@ -85,6 +85,17 @@ pub fn go(control: &mut Control, motion: &Motion, before: Before, cause: Cause) 
     }
 }
 
+/// The axes that go together, in their order. Of a lathe neither axis is the one that must go first:
+/// as all its rapid motions this is one block, where the settings do not say otherwise.
+fn groups(control: &Control) -> [AxisSet; 3] {
+    let is_lathe = control.commons.read(loc::LATHE_DIAMETER);
+    match control.commons.read(loc::HOME_LATHE_ORDER) {
+        _ if !is_lathe => [AxisSet::Z, AxisSet::XY, AxisSet::ROTARY],
+        HomeLatheOrder::OneBlock => [AxisSet::Z.or(AxisSet::XY), AxisSet::ROTARY, AxisSet::NONE],
+        HomeLatheOrder::XThenZ => [AxisSet::XY, AxisSet::Z, AxisSet::ROTARY],
+    }
+}
+
 fn block(control: &mut Control, motion: &Motion) -> Result<()> {
     control.family().ready(control)?;
     // A zero that the control has shifted does not count in this frame.
@@ -96,7 +107,10 @@ fn block(control: &mut Control, motion: &Motion) -> Result<()> {
         let axis = *control.tables.axis(number);
         let Some(position) = axis.tape_position()? else { continue };
         let to = motion.position[number] + zero.get(number).copied().unwrap_or(0.0);
-        control.block.put(position, axis.scaled(to)?);
+        match of_increments(control, axis.letter) {
+            Some(letter) => control.word(letter, 0.0)?,
+            None => control.block.put(position, axis.scaled(to)?),
+        }
     }
     control.family().to_machine_position(control)?;
     for number in motion.axes.numbers() {
@@ -120,6 +134,9 @@ pub(super) fn by_code(control: &mut Control, ends_edge: bool) -> Result<()> {
         let [increments, absolute] = [loc::MODE_INCREMENTAL_CODE, loc::MODE_ABSOLUTE_CODE]
             .map(|at| control.code(at, "the way to the reference point"));
         control.g(function);
+        if control.commons.read(loc::LATHE_DIAMETER) {
+            return control.write_block();
+        }
         control.g(increments?);
         control.write_block()?;
         control.g(absolute?);

@@ -374,7 +374,10 @@ fn time_stamp(control: &mut Control) -> Result<()> {
 }
 
 /// Lists the tools in comments, where the machine wants them.
-fn tool_list(control: &mut Control) -> Result<()> {
+///
+/// # Errors
+/// As a line on the tape.
+pub fn tool_list(control: &mut Control) -> Result<()> {
     if !control.commons.read(loc::PROGRAM_TOOL_LIST) {
         return Ok(());
     }

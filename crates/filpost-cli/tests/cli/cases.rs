@@ -2,7 +2,7 @@
 
 use crate::support::{Folder, NC, SMALL};
 
-const CASE: &str = "cl = 'part.ncl'\nready = 'fanuc-mill'\nexpect = 'part.nc'\norigin = 'ours'\n";
+const CASE: &str = "cl = 'part.ncl'\nready = 'fanuc-mill'\noptions.style = 'plain'\nexpect = 'part.nc'\norigin = 'ours'\n";
 
 fn place(files: &[(&str, &str)]) -> Folder {
     files.iter().fold(Folder::new(), |place, (name, text)| place.with(name, text))
@@ -116,7 +116,8 @@ fn a_listing_is_compared() {
     assert_eq!(ran.status, 1);
     assert!(ran.out.contains("+      6       6  GOTO / 1.0, 2.0, 3.0"), "{}", ran.out);
     place.run(&["test", ".", "--update"]);
-    place.run(&["post", "part.ncl", "-p", "fanuc-mill", "-o", "x.nc", "--listing", "x.lst"]);
+    let plain = "--option=style=plain";
+    place.run(&["post", "part.ncl", "-p", "fanuc-mill", plain, "-o", "x.nc", "--listing", "x.lst"]);
     assert_eq!(place.text("part.lst").unwrap_or_default(), place.text("x.lst").unwrap_or_default());
     assert_eq!(place.run(&["test", "."]).status, 0);
 }

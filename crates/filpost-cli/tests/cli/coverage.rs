@@ -6,7 +6,7 @@ use crate::support::{Folder, NC, SMALL};
 const FIL: &str = "CIMFIL/ON,LOADTL\nDMY=POSTF(13)\nIF(POSTF(7,4).GT.5)OPSTOP\nCIMFIL/OFF\n\
                    CIMFIL/ON,CYCLE\nDO/LA,II=1,3\nPPRINT/'HOLE'\nLA) CONTIN\nCIMFIL/OFF\nFINI\n";
 
-const CASE: &str = "cl = 'part.ncl'\nready = 'fanuc-mill'\nfil = ['post.fil']\n\
+const CASE: &str = "cl = 'part.ncl'\nready = 'fanuc-mill'\noptions.style = 'plain'\nfil = ['post.fil']\n\
                     expect = 'part.tap'\norigin = 'own'\n";
 
 fn place() -> Folder {
@@ -83,7 +83,8 @@ fn changes_that_no_case_notices_are_named() {
 #[test]
 fn settings_that_no_case_notices_are_named() {
     let machine = "base = 'fanuc-mill'\n[cycle]\ndrill_code = 181\n[spindle]\ncw_code = 13\n";
-    let case = CASE.replace("ready = 'fanuc-mill'\n", "machine = 'machine.toml'\n");
+    let case = CASE
+        .replace("ready = 'fanuc-mill'\noptions.style = 'plain'\n", "machine = 'machine.toml'\n");
     let place = place().with("machine.toml", machine).with("case.toml", case);
     let place = place.with("part.tap", NC.replace("S900 M3", "S900 M13"));
     let ran = place.run(&["test", ".", "--coverage"]);
@@ -107,6 +108,7 @@ fn a_profile_tells_of_words_sections_and_lines() {
         "part.ncl",
         "-p",
         "fanuc-mill",
+        "--option=style=plain",
         "-f",
         "post.fil",
         "--profile=p.svg",

@@ -14,7 +14,7 @@ fn message(text: &str) -> String {
 fn a_client_launches_a_run_over_standard_input_and_output() {
     let place = Folder::new().with("part.ncl", SMALL);
     let launch = format!(
-        r#"{{"seq":2,"type":"request","command":"launch","arguments":{{"cwd":{:?},"cl":"part.ncl","ready":"fanuc-mill"}}}}"#,
+        r#"{{"seq":2,"type":"request","command":"launch","arguments":{{"cwd":{:?},"cl":"part.ncl","ready":"fanuc-mill","options":{{"style":"plain"}}}}}}"#,
         place.0.path()
     );
     let mut child = place

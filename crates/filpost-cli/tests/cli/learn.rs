@@ -13,7 +13,8 @@ const DWELL: &str = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nRAPID\nGOTO
 fn with_program(part: &str, settings: &[&str]) -> Folder {
     let place = Folder::new();
     std::fs::write(place.0.path().join("part.ncl"), part).expect("written");
-    let mut words = vec!["post", "part.ncl", "-p", "fanuc-mill", "-o", "part.nc"];
+    let mut words =
+        vec!["post", "part.ncl", "-p", "fanuc-mill", "--option=style=plain", "-o", "part.nc"];
     words.extend(settings.iter().flat_map(|setting| ["--set", setting]));
     let posted = place.run(&words);
     assert_eq!(posted.status, 0, "{posted:?}");
@@ -46,7 +47,8 @@ fn settings_are_learned_with_their_proofs_and_the_cases_pass() {
     assert!(posted.err.contains("dwell.code=77"), "{}", posted.err);
 
     // A further pair decides it.
-    let words = ["post", "dwell.ncl", "-p", "fanuc-mill", "-o", "proven.nc"];
+    let words =
+        ["post", "dwell.ncl", "-p", "fanuc-mill", "--option=style=plain", "-o", "proven.nc"];
     let words: Vec<&str> =
         words.into_iter().chain(hidden.iter().flat_map(|set| ["--set", *set])).collect();
     assert_eq!(place.run(&words).status, 0);

@@ -167,7 +167,15 @@ fn a_machine_lies_over_a_post() {
         .with("uncx01.p07", "UNCX01.P07\nMILL\nINTCOM:\n0 0\nRELCOM:\n0 0\nDBLCOM:\n0 0\n")
         .with("part.ncl", SMALL);
     let base = place.run(&["post", "part.ncl", "-m", "base.toml"]);
-    let over = place.run(&["post", "part.ncl", "-p", "fanuc-mill", "-m", "over.toml"]);
+    let over = place.run(&[
+        "post",
+        "part.ncl",
+        "-p",
+        "fanuc-mill",
+        "-m",
+        "over.toml",
+        "--option=style=plain",
+    ]);
     assert_eq!((base.status, &base.out), (0, &over.out), "{}", base.err);
     assert!(base.out.contains("G11"), "{}", base.out);
     assert!(over.err.contains("fanuc-mill with over.toml"), "{}", over.err);

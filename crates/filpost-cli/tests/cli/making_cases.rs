@@ -75,7 +75,7 @@ const READS: &str = "CIMFIL/ON,PARTNO\nDMY=POSTF(13)\nT1=TEXT/DATEF()\nINSERT/'(
                      DMY=FILEF(1,READ,'deep/speeds.txt')\nT2=TEXT/READ,1\nINSERT/'(',T2,')'\n\
                      DMY=FILEF(1,CLOSE)\nCIMFIL/OFF\nFINI\n";
 
-const READING: [&str; 13] = [
+const READING: [&str; 15] = [
     "test",
     "--init",
     "cases/one",
@@ -85,6 +85,8 @@ const READING: [&str; 13] = [
     "part.nc",
     "-p",
     "fanuc-mill",
+    "--option",
+    "style=plain",
     "-f",
     "post.fil",
     "--set-clock",
@@ -153,8 +155,18 @@ fn a_folder_that_cant_be_part_of_a_case_is_refused() {
 #[test]
 fn files_that_are_there_stay_as_they_are() {
     let place = place(&[("c/part.ncl", SMALL), ("c/part.nc", NC), ("other.nc", "M30\n")]);
-    let arguments =
-        ["test", "--init", "c", "--cl", "c/part.ncl", "--nc", "c/part.nc", "-p", "fanuc-mill"];
+    let arguments = [
+        "test",
+        "--init",
+        "c",
+        "--cl",
+        "c/part.ncl",
+        "--nc",
+        "c/part.nc",
+        "-p",
+        "fanuc-mill",
+        "--option=style=plain",
+    ];
     let ran = place.run(&arguments);
     assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
     assert_eq!(place.text("c/part.ncl").as_deref(), Some(SMALL));

@@ -22,9 +22,11 @@ fn nc_goes_to_the_named_file() {
 #[test]
 fn streams_can_stand_for_files() {
     let place = Folder::new();
-    for arguments in
-        [&["post", "-"][..], &["post", "-", "-o", "-"], &["post", "-p", "fanuc-mill", "-"]]
-    {
+    for arguments in [
+        &["post", "-"][..],
+        &["post", "-", "-o", "-"],
+        &["post", "-p", "fanuc-mill", "--option=style=plain", "-"],
+    ] {
         let ran = place.run_with_input(arguments, SMALL.as_bytes());
         assert_eq!((ran.status, ran.out.as_str()), (0, NC), "{arguments:?} {ran:?}");
     }

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::support::{Folder, NC, SMALL, WRONG};
 
-const CASE: &str = "cl = 'part.ncl'\nready = 'fanuc-mill'\nexpect = 'part.nc'\norigin = 'ours'\n";
+const CASE: &str = "cl = 'part.ncl'\nready = 'fanuc-mill'\noptions.style = 'plain'\nexpect = 'part.nc'\norigin = 'ours'\n";
 
 /// Ten cases below `corpus`, of which the eighth fails.
 fn ten_cases() -> Folder {

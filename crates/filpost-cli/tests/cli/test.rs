@@ -4,7 +4,7 @@ use crate::support::{Folder, NC, Ran, SMALL};
 
 #[test]
 fn cases_are_run_and_brought_up_to_date() {
-    let case = "cl = 'part.ncl'\nready = 'fanuc-mill'\nexpect = 'part.tap'\norigin = 'own'\n";
+    let case = "cl = 'part.ncl'\nready = 'fanuc-mill'\noptions.style = 'plain'\nexpect = 'part.tap'\norigin = 'own'\n";
     let place = Folder::new().with("part.ncl", SMALL).with("case.toml", case).with("part.tap", NC);
     let last = |ran: &Ran| ran.out.lines().last().unwrap_or("").to_string();
     let good = place.run(&["test"]);

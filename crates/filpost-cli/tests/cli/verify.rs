@@ -16,9 +16,11 @@ const PROGRAM: &str = "%\nO0001\nN10 G21 G90 G94 G17\nN20 G0 X0. Y0. A0.\nN30 Z1
 /// The middle of the line, (0, -50, 50), is 70.711 from the axis, at 45 degrees.
 const HALF_WAY: &str = "N35 G1 Z70.711 A45. F200.\nN40 G1 Y0. Z100. A90. F200.\n";
 
-const TABLE: [&str; 12] = [
+const TABLE: [&str; 14] = [
     "-p",
     "fanuc-mill",
+    "--option",
+    "style=plain",
     "--set",
     "rotary.primary_kind=1",
     "--set",
@@ -125,7 +127,7 @@ fn a_line_of_three_axes_may_stand_in_parts() {
              N60 G1 X10. Y20. Z-2. F200.\nN70 M30\n%\n"
         )
     };
-    let mill = ["-p", "fanuc-mill"];
+    let mill = ["-p", "fanuc-mill", "--option", "style=plain"];
     let whole = verify(cl, &program(""), &mill, &["--format", "json"]);
     assert_eq!(as_json(&whole)["between"], Value::Null);
     // A third of the way is 3.3333, 6.6667, 2.6667, as it is rounded.

@@ -5,7 +5,7 @@ use std::process::Stdio;
 
 use crate::support::{Folder, SMALL};
 
-const CASE: &str = "cl = \"part.ncl\"\nready = \"fanuc-mill\"\nfil = [\"post.fil\"]\n\
+const CASE: &str = "cl = \"part.ncl\"\nready = \"fanuc-mill\"\noptions.style = \"plain\"\nfil = [\"post.fil\"]\n\
                     expect = \"x.nc\"\norigin = \"a test\"\n";
 
 #[test]

@@ -63,7 +63,7 @@ mod tests {
             cl.push_str(if number % 40 == 9 { "DELAY / 1\n" } else { "" });
             cl.push_str(if number % 70 == 3 { "STOP\n" } else { "" });
         }
-        let post = Program::builder().ready("fanuc-mill").fil("mill.fil", fil).build().unwrap();
+        let post = Program::builder().generic("fanuc-mill").fil("mill.fil", fil).build().unwrap();
         let names =
             Names { cl: "part.ncl".into(), nc: "out.nc".into(), fil: vec!["mill.fil".into()] };
         let (mut nc, mut lines) = (Vec::new(), Vec::new());

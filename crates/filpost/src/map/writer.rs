@@ -208,7 +208,8 @@ mod tests {
     /// The map of a run, and who made its lines.
     fn map(maker: impl FnOnce(&[u8]) -> Maker) -> String {
         let fil = "CIMFIL/ON,COOLNT\nIF(POSTF(7,4).EQ.72) THEN\nENDIF\nCIMFIL/OFF\nFINI\n";
-        let program = Program::builder().ready("fanuc-mill").fil("cool.fil", fil).build().unwrap();
+        let program =
+            Program::builder().generic("fanuc-mill").fil("cool.fil", fil).build().unwrap();
         let moves: String = (0..20_000).map(|n| format!("GOTO / {}, 2, 3\n", n % 5000)).collect();
         let text = format!("UNITS / MM\nLOADTL / 1\nFEDRAT / 9, MMPM\n{moves}COOLNT / ON\nFINI\n");
         let mut cl = Digested::new(Cursor::new(text)).unwrap();

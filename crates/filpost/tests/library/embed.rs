@@ -20,7 +20,7 @@ const COUNTING: &str = "NN=0\nCIMFIL/ON,LOADTL\nNN=NN+1\nT1=TEXT/'TOOL NO ',NN,'
                         PPRINT/T1\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
 
 fn mill() -> Builder {
-    Program::builder().ready("fanuc-mill")
+    Program::builder().generic("fanuc-mill")
 }
 
 fn counting() -> Program {

@@ -8,7 +8,7 @@ use filpost::{Error, Event, Program, Refusals, read_compat};
 const HEAD: &str = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nFEDRAT / 200, MMPM\n";
 
 fn mill() -> Program {
-    Program::builder().ready("fanuc-mill").build().expect("a post")
+    Program::builder().generic("fanuc-mill").build().expect("a post")
 }
 
 fn refused(program: &Program, cl: &str) -> Refusals {
@@ -122,7 +122,7 @@ fn the_words_that_are_offered_make_the_file_run() {
     let words: Vec<String> = found.words().map(|word| format!("{word:?}")).collect();
     let toml = format!("[words]\nwithout_effect = [{}]", words.join(", "));
     let compat = read_compat("compat.toml", &toml).expect("a compat file");
-    let program = Program::builder().ready("fanuc-mill").compat(compat).build().expect("a post");
+    let program = Program::builder().generic("fanuc-mill").compat(compat).build().expect("a post");
     program.run(cl.as_bytes(), io::sink()).expect("a program");
     let again = refused(&program, &cl.replace("FINI", "THIRDWD\nFINI"));
     assert_eq!(again.listed_words(), ["SHOPNOTE", "SITEWD"]);
@@ -144,7 +144,8 @@ fn observers_hear_nothing_after_the_first_error() {
 #[test]
 fn an_error_of_fil_is_the_last_one() {
     let fil = "CIMFIL/ON,COOLNT\nXX=1/0\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
-    let program = Program::builder().ready("fanuc-mill").fil("a.fil", fil).build().expect("a post");
+    let program =
+        Program::builder().generic("fanuc-mill").fil("a.fil", fil).build().expect("a post");
     let cl = format!("{HEAD}SITEWD\nCOOLNT / ON\nSHOPNOTE\nFINI\n");
     assert_eq!(kinds(&refused(&program, &cl)), ["E0513:5", "E0301:2"]);
     // In doubt no section is run, and its records are not judged.
@@ -155,7 +156,8 @@ fn an_error_of_fil_is_the_last_one() {
 #[test]
 fn a_record_that_the_post_refuses_in_a_section_does_not_end_the_list() {
     let fil = "CIMFIL/ON,COOLNT\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
-    let program = Program::builder().ready("fanuc-mill").fil("a.fil", fil).build().expect("a post");
+    let program =
+        Program::builder().generic("fanuc-mill").fil("a.fil", fil).build().expect("a post");
     let cl = format!("{HEAD}COOLNT / WET\nSHOPNOTE\nFINI\n");
     assert_eq!(kinds(&refused(&program, &cl)), ["E0506:5", "E0513:6"]);
 }

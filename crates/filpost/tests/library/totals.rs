@@ -14,7 +14,7 @@ const CL: &str = "PARTNO / BRACKET\nUNITS / MM\n$$-> FEATNO / 11\nTPRINT / END M
     GOTO / 120, 50, 0\nCYCLE / OFF\nFINI\n";
 
 fn mill(fil: &str) -> Builder {
-    Program::builder().ready("fanuc-mill").fil("header.fil", fil)
+    Program::builder().generic("fanuc-mill").fil("header.fil", fil)
 }
 
 /// The comments of the program behind its name.

@@ -148,7 +148,7 @@ fn e0716_changed_as_written() {
 
 #[test]
 fn w0757_choice_against_the_signs() {
-    let mill = Program::builder().ready("fanuc-mill").build().expect("a ready post");
+    let mill = Program::builder().generic("fanuc-mill").build().expect("a ready post");
     let text =
         "TOOL PATH/ROUGH,TOOL,MILL_10\nUNITS/MM\nFEDRAT/100.0,MMPM\nGOTO/1.0,2.0,3.0\nFINI\n";
     let post = |dialect| {

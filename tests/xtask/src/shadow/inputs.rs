@@ -163,7 +163,7 @@ impl Posts {
         let mut ready = self.ready.lock().unwrap_or_else(PoisonError::into_inner);
         let cell = Arc::clone(ready.entry(name).or_default());
         drop(ready);
-        cell.get_or_init(|| Program::builder().ready(name).build()).clone()
+        cell.get_or_init(|| Program::builder().generic(name).build()).clone()
     }
 }
 
@@ -223,7 +223,7 @@ fn test(path: &Path) -> Result<Record, Why> {
 }
 
 fn random(drawn: &Drawn) -> Result<Record, Why> {
-    let builder = Program::builder().ready(&drawn.ready);
+    let builder = Program::builder().generic(&drawn.ready);
     let program = drawn.settings.iter().fold(builder, |builder, one| builder.set(one)).build()?;
     Ok(posted(&program, || program.start(), (drawn.cl.as_bytes(), CL_NAME)))
 }

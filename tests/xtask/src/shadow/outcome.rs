@@ -121,7 +121,7 @@ mod tests {
     use super::*;
 
     fn record(cl: &str) -> Record {
-        let program = Program::builder().ready("fanuc-mill").build().unwrap();
+        let program = Program::builder().generic("fanuc-mill").build().unwrap();
         posted(&program, || program.start(), (cl.as_bytes(), "CL"))
     }
 
@@ -138,7 +138,7 @@ mod tests {
 
     #[test]
     fn what_verify_finds_has_both_lines() {
-        let program = Program::builder().ready("fanuc-mill").build().unwrap();
+        let program = Program::builder().generic("fanuc-mill").build().unwrap();
         let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
         let mut nc = Vec::new();
         program.run(cl.as_bytes(), &mut nc).unwrap();

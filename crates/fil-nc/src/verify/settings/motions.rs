@@ -3,8 +3,8 @@
 use fil_machine::axis_chain::Carries;
 use fil_machine::commons::Dbl;
 use fil_machine::locations::{
-    self as loc, CircleCorrection, FeedInverseLength, HomeFrame, LinearMethod, ProgramEndBlock,
-    RotaryTipForm,
+    self as loc, CircleCorrection, FeedInverseLength, HomeFrame, HomeLatheOrder, LinearMethod,
+    ProgramEndBlock, RotaryTipForm,
 };
 use nalgebra::Point3;
 
@@ -92,6 +92,11 @@ impl Settings<'_> {
             ProgramEndBlock::Z => [None, None, z],
             ProgramEndBlock::ZThenXAndY => [x, y, z],
         }
+    }
+
+    /// X of a lathe goes home before Z.
+    pub fn goes_home_x_first(&self) -> bool {
+        self.commons.read(loc::HOME_LATHE_ORDER) == HomeLatheOrder::XThenZ
     }
 
     /// The tool goes up before another work offset.

@@ -7,6 +7,7 @@ use fil_machine::modes::{Plane, Unit};
 use super::line::{self, Line};
 use crate::cause::Cause;
 use crate::control::Control;
+use crate::control::program::tool_list;
 use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
 
@@ -30,6 +31,7 @@ pub fn start(control: &mut Control, blocks: &[String]) -> Result<()> {
     let cause = control.head.cause;
     let text = format!("BEGIN PGM {} {}", control.klartext.name, unit_text(unit));
     line::put(control, &Line::of_text(&text, cause))?;
+    tool_list(control)?;
     blocks.iter().try_for_each(|block| control.write_text(block, true))
 }
 
