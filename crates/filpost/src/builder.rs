@@ -131,7 +131,8 @@ impl Builder {
     ///                group = 'formats'\nhelp = 'Step of N'\nset = 'seqno.increment'\n";
     /// let builder = Program::builder().machine("machine.toml", machine).option("step", "5");
     /// let program = builder.build()?;
-    /// assert_eq!(program.options()[0].value.to_string(), "5");
+    /// let step = program.options().iter().find(|option| option.name == "step");
+    /// assert_eq!(step.map(|step| step.value.to_string()).as_deref(), Some("5"));
     /// # Ok::<(), filpost::Error>(())
     /// ```
     pub fn option(mut self, name: &str, value: &str) -> Self {

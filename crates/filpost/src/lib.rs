@@ -6,7 +6,7 @@
 //! let program = filpost::Program::builder().ready("fanuc-mill").build()?;
 //! let mut nc = Vec::new();
 //! let report = program.run(cl.as_bytes(), &mut nc)?;
-//! assert_eq!(report.blocks, 8);
+//! assert_eq!(report.blocks, 18);
 //! assert!(String::from_utf8(nc)?.contains("G1 G43 X1. Y2. Z3. F200. H1"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -318,7 +318,9 @@ impl<'o> Run<'o> {
     /// The blocks of a CL stream, one by one, each with what made it.
     ///
     /// ```
-    /// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
+    /// let program = filpost::Program::builder().ready("fanuc-mill");
+    /// // A stream is read once: its tools are not known at the start.
+    /// let program = program.option("tool-list", "no").build()?;
     /// let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 800, CLW\nFEDRAT / 200, MMPM\n\
     ///     GOTO / 1, 2, 3\nFINI\n";
     /// let mut blocks = program.blocks(cl.as_bytes());
