@@ -170,7 +170,7 @@ fn a_message_goes_to_the_tape_or_to_the_listing() {
 
 #[test]
 fn the_same_warning_is_shown_once() {
-    let fil = "CIMFIL/ON,SPINDL\nAA=ZZ+0\nAA=ZZ+1\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
+    let fil = "CIMFIL/ON,SPINDL\nAA=ZZ\nBB=ZZ\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
     let place = Folder::new().with("part.ncl", SMALL).with("post.fil", fil);
     let ran = place.run(&["post", "part.ncl", "-f", "post.fil"]);
     assert_eq!(ran.err.matches("ZZ was never set").count(), 1, "{}", ran.err);
