@@ -385,3 +385,24 @@ fn may_belong_together(a: Key, b: Key) -> bool {
     let (Key::Setting(a), Key::Setting(b)) = (a, b) else { return false };
     candidates::group(a) == candidates::group(b)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Pair;
+
+    #[test]
+    fn a_start_text_is_found_where_the_change_is_the_first_record() {
+        let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nRAPID\nGOTO / 1, 2, 30\n\
+                  FEDRAT / 200, MMPM\nGOTO / 1, 2, -0.5\nGOTO / 20.5, 2, -0.5\nFINI\n";
+        let builder = filpost::Program::builder().ready("brother-mill").option("style", "plain");
+        let program = builder.set("blocks.start=[\"G40 G80\"]").build().unwrap();
+        let mut nc = Vec::new();
+        program.run_seekable(std::io::Cursor::new(cl), &mut nc).unwrap();
+        let pair = Pair::new("part.ncl", cl.as_bytes(), "part.nc", &nc);
+        let task = Task::new(vec![pair], Bases::Ready(vec!["brother-mill".into()]));
+        let learned = learn(&task).unwrap();
+        assert!(learned.is_equal(), "{}", learned.report());
+        assert!(learned.machine_toml().contains("blocks.start = [\"G40 G80\"]"));
+    }
+}

@@ -176,7 +176,8 @@ fn collect(gaps: &Gaps, runs: &mut Vec<(usize, Vec<String>)>) {
         }
     };
     let last = gaps.before.len() - 1;
-    let first_change = gaps.changes.first().map_or(last, |(first, _)| *first);
+    // The head of the program is written at its first record, which may be that of the change.
+    let first_change = gaps.changes.first().map_or(last, |(_, done)| *done);
     for run in &gaps.before[..=first_change.min(last)] {
         put(START, run);
     }
