@@ -88,7 +88,7 @@ impl Client {
         client.write("part.ncl", CL);
         client.write("post.fil", fil);
         let mut arguments = json!({ "cwd": client.folder.path(), "cl": "part.ncl",
-            "ready": "fanuc-mill", "fil": ["post.fil"] });
+            "ready": "fanuc-mill", "options": { "style": "plain" }, "fil": ["post.fil"] });
         for (key, value) in more.as_object().expect("keys") {
             arguments[key] = value.clone();
         }

@@ -578,7 +578,7 @@ fn a_hover_tells_what_a_name_held_in_the_last_run_of_its_case() {
     );
     write(
         "case.toml",
-        "cl = \"part.ncl\"\nready = \"fanuc-mill\"\nfil = [\"post.fil\"]\norigin = \"x\"\n",
+        "cl = \"part.ncl\"\nready = \"fanuc-mill\"\noptions.style = \"plain\"\nfil = [\"post.fil\"]\norigin = \"x\"\n",
     );
     let uri = |name: &str| format!("file://{}", folder.path().join(name).display());
     let params = json!({ "workspaceFolders": [{ "uri": uri("") }] });
