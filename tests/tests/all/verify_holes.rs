@@ -141,5 +141,7 @@ fn a_tool_of_a_sinumerik_that_is_in_the_spindle_may_be_left_out() {
     let nc =
         "%_N_N_1_MPF; G710 G90 G94 G17; T1 M6; D1; S3000 M3; G0 X0 Y0; Z50; G1 Z5 F200; X10; M30";
     assert_eq!(found("sinumerik-840d", &["tool.modal=1"], &cl, nc), "");
-    assert_ne!(found("sinumerik-840d", &[], &cl, nc), "");
+    assert_eq!(found("sinumerik-840d", &[], &cl, nc), "");
+    let other = format!("{TOOL}; LOADTL / 2; GOTO / 10, 0, 5");
+    assert_ne!(found("sinumerik-840d", &[], &other, nc), "");
 }
