@@ -1,4 +1,4 @@
-//! Posts a CL file with a ready post and perhaps a FIL file:
+//! Posts a CL file with a ready post in its plain style, and perhaps a FIL file:
 //! `cargo run -p filpost --example post_file -- part.ncl part.ngc [post.fil]`. `FILPOST_POST`
 //! names another ready post than `linuxcnc-mill`.
 
@@ -28,7 +28,7 @@ fn main() -> ExitCode {
 
 fn post(cl: &Path, nc: &Path, fil: Option<&Path>) -> Result<(), filpost::Error> {
     let name = std::env::var("FILPOST_POST").unwrap_or_else(|_| "linuxcnc-mill".to_string());
-    let mut builder = Program::builder().ready(&name);
+    let mut builder = Program::builder().generic(&name);
     if let Some(fil) = fil {
         builder = builder.fil(&fil.display().to_string(), &files::read_text(fil, None)?);
     }

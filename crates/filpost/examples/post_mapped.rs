@@ -24,7 +24,7 @@ fn main() -> ExitCode {
 }
 
 fn post(cl: &Path, nc: &Path) -> Result<(), Error> {
-    let program = Program::builder().ready("linuxcnc-mill").build()?;
+    let program = Program::builder().generic("linuxcnc-mill").build()?;
     let input = File::open(cl).map_err(|error| files::cant_read(cl, &error))?;
     let mut map = nc.as_os_str().to_owned();
     map.push(".map");
