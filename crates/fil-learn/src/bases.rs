@@ -33,7 +33,7 @@ pub(crate) struct Base {
     pub title: String,
     /// The ready post; `None` for a given program.
     pub post: Option<String>,
-    /// Options of the post that are not at their defaults.
+    /// Options of the post that are given.
     pub options: Vec<(String, String)>,
     /// Its machine and the FIL of the task.
     pub program: Program,
@@ -71,14 +71,22 @@ impl Base {
             for value in values(&option.kind).into_iter().filter(|value| *value != now) {
                 let mut options = self.options.clone();
                 options.retain(|(name, _)| *name != option.name);
-                if value != option.default.to_string() {
+                let mut other = Base::ready(post, options.clone(), fil).ok();
+                if other.as_ref().is_some_and(|other| !other.has(&option.name, &value)) {
                     options.push((option.name.clone(), value));
+                    options.sort();
+                    other = Base::ready(post, options, fil).ok();
                 }
-                options.sort();
-                others.extend(Base::ready(post, options, fil).ok().map(Arc::new));
+                others.extend(other.map(Arc::new));
             }
         }
         others
+    }
+
+    /// An option has a value, from the post, its style or the options of the base.
+    fn has(&self, option: &str, value: &str) -> bool {
+        let options = self.program.options();
+        options.iter().any(|it| it.name == option && it.value.to_string() == value)
     }
 }
 

@@ -232,7 +232,7 @@ fn has_many_values(row: &Location) -> bool {
 }
 
 /// A code that no machine has.
-const OTHER_CODE: f64 = 77.0;
+pub(crate) const OTHER_CODE: f64 = 77.0;
 
 /// A count that is a code with its digit after the point.
 fn looks_like_code(row: &Location) -> bool {

@@ -140,10 +140,7 @@ pub(crate) fn key(name: &str) -> Option<Key> {
 /// What a machine has for a key.
 pub(crate) fn read(commons: &Commons, key: Key) -> Value {
     match key {
-        Key::Setting(index) => {
-            let row = row(index);
-            Value::Number(commons.get(row.kind, u32::from(row.number)).unwrap_or(EMPTY))
-        }
+        Key::Setting(index) => Value::Number(number(commons, index)),
         Key::Letter(letter) => Value::Address(address(commons, letter)),
         Key::Texts(list) => Value::Texts(user_blocks::LISTS[list].1.read(commons)),
     }

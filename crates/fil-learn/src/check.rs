@@ -34,17 +34,8 @@ impl Checked {
     pub fn report(&self) -> String {
         let mut text = String::new();
         for pair in &self.pairs {
-            let said = match (pair.is_equal, pair.is_refused) {
-                (true, _) => "every byte".to_string(),
-                (_, true) => "the CL file is refused".to_string(),
-                _ => format!("{} of {} blocks", pair.equal, pair.blocks),
-            };
-            let _ = writeln!(text, "{}: {said}", pair.nc_name);
-            for (line, proven, ours) in &pair.left {
-                let _ = writeln!(text, "  line {line}");
-                proven.iter().for_each(|block| text.push_str(&format!("  - {block}\n")));
-                ours.iter().for_each(|block| text.push_str(&format!("  + {block}\n")));
-            }
+            let _ = writeln!(text, "{}", pair.summary());
+            text.push_str(&pair.differences(usize::MAX));
         }
         let mut list = |title: &str, settings: &[String]| {
             if !settings.is_empty() {

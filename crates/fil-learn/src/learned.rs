@@ -10,7 +10,7 @@ use crate::change::{self, Changes, Key, Machine};
 use crate::proof::{self, Proof};
 use crate::trial::{Bench, State};
 use crate::undecided;
-use crate::words::hash;
+use crate::words::{self, Block};
 
 /// A machine that was learned, with its proofs.
 #[derive(Debug)]
@@ -53,7 +53,7 @@ impl Learned {
         &self.machine.base.title
     }
 
-    /// Options of the base that are not at their defaults.
+    /// Options that the base is given.
     pub fn options(&self) -> &[(String, String)] {
         &self.machine.base.options
     }
@@ -172,18 +172,13 @@ pub(crate) fn compare(bench: &Bench<'_>, state: &State, at: usize) -> LearnedPai
         left: Vec::new(),
     };
     let Some(own) = &state.programs[at] else { return result };
-    let whole = |b: &crate::words::Block| format!("{} {}", b.number, b.text);
-    let lines = |blocks: &[crate::words::Block]| -> Vec<u64> {
-        blocks.iter().map(|block| hash(whole(block).as_bytes())).collect()
-    };
+    let lines = words::numbered_lines;
     let matches = align::matches(&lines(&own.blocks), &lines(&pair.proven.blocks));
     result.equal = matches.len();
     let (mut i, mut j) = (0, 0);
     for (to_i, to_j) in matches.into_iter().chain([(own.blocks.len(), pair.proven.blocks.len())]) {
         if i != to_i || j != to_j {
-            let texts = |blocks: &[crate::words::Block]| {
-                blocks.iter().map(|block| whole(block).trim().to_string()).collect()
-            };
+            let texts = |blocks: &[Block]| blocks.iter().map(Block::whole).collect();
             let (proven, ours) = (&pair.proven.blocks[j..to_j], &own.blocks[i..to_i]);
             result.left.push((j + 1, texts(proven), texts(ours)));
         }

@@ -3,7 +3,7 @@
 use crate::align;
 use crate::change::{self, Key};
 use crate::trial::{Bench, State};
-use crate::words::hash;
+use crate::words::numbered_lines as lines;
 
 /// Lines that a proof names.
 const NAMED: usize = 2;
@@ -48,10 +48,6 @@ pub(crate) fn proofs(bench: &Bench<'_>, state: &State) -> Vec<(Key, Proof)> {
 }
 
 fn compare(bench: &Bench<'_>, state: &State, without: &State, proof: &mut Proof) {
-    let lines = |blocks: &[crate::words::Block]| -> Vec<u64> {
-        let whole = |b: &crate::words::Block| hash(format!("{} {}", b.number, b.text).as_bytes());
-        blocks.iter().map(whole).collect()
-    };
     for (at, pair) in bench.pairs.iter().enumerate() {
         let Some(with) = &state.programs[at] else { continue };
         let proven = lines(&pair.proven.blocks);

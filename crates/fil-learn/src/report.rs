@@ -4,22 +4,40 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use crate::learned::Learned;
+use crate::learned::{Learned, LearnedPair};
 
 /// Differences that the text names; the JSON has all.
 const NAMED: usize = 20;
+
+impl LearnedPair {
+    /// How much of the program comes out, in a line.
+    pub(crate) fn summary(&self) -> String {
+        let name = &self.nc_name;
+        match (self.is_equal, self.is_refused) {
+            (true, _) => format!("{name}: every byte"),
+            (_, true) => format!("{name}: the CL file is refused"),
+            _ => format!("{name}: {} of {} blocks", self.equal, self.blocks),
+        }
+    }
+
+    /// The first places that differ, proven blocks before ours.
+    pub(crate) fn differences(&self, most: usize) -> String {
+        let mut text = String::new();
+        for (line, proven, ours) in self.left.iter().take(most) {
+            let _ = writeln!(text, "  line {line}");
+            proven.iter().for_each(|block| text.push_str(&format!("  - {block}\n")));
+            ours.iter().for_each(|block| text.push_str(&format!("  + {block}\n")));
+        }
+        text
+    }
+}
 
 impl Learned {
     /// The report as text: how much comes out, what was found, what is left.
     pub fn report(&self) -> String {
         let mut text = String::new();
         for pair in self.pairs() {
-            let said = match (pair.is_equal, pair.is_refused) {
-                (true, _) => "every byte".to_string(),
-                (_, true) => "the CL file is refused".to_string(),
-                _ => format!("{} of {} blocks", pair.equal, pair.blocks),
-            };
-            let _ = writeln!(text, "{}: {said}", pair.nc_name);
+            let _ = writeln!(text, "{}", pair.summary());
         }
         let _ = writeln!(text, "\nbase {}", self.base());
         for (name, value) in self.options() {
@@ -41,11 +59,7 @@ impl Learned {
         }
         for pair in self.pairs().iter().filter(|pair| !pair.left.is_empty()) {
             let _ = writeln!(text, "\nleft in {}:", pair.nc_name);
-            for (line, proven, ours) in pair.left.iter().take(NAMED) {
-                let _ = writeln!(text, "  line {line}");
-                proven.iter().for_each(|block| text.push_str(&format!("  - {block}\n")));
-                ours.iter().for_each(|block| text.push_str(&format!("  + {block}\n")));
-            }
+            text.push_str(&pair.differences(NAMED));
             if pair.left.len() > NAMED {
                 let _ = writeln!(text, "  and {} more places", pair.left.len() - NAMED);
             }

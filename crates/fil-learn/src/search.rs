@@ -67,7 +67,7 @@ pub(crate) fn learn(task: &Task<'_>) -> Result<Learned, Error> {
         }
     }
     let Some(best) = best else { return Err(no_base(&bases)) };
-    let best = search.rebase(search.proven(best), &bases);
+    let best = search.rebase(search.take_back(best), &bases);
     let undecided = undecided::find(&bench, &search.alternatives, &best);
     Ok(Learned::new(&bench, best, undecided))
 }
@@ -155,11 +155,7 @@ impl Search<'_, '_> {
     /// The best of some machines, if it is better than a state.
     fn best_of(&self, machines: &[Machine], state: &State) -> Option<State> {
         let trials = self.bench.attempt_all(machines, state);
-        let better = trials.iter().enumerate().filter_map(|(at, trial)| match trial {
-            Trial::Better(score) => Some((at, *score)),
-            _ => None,
-        });
-        let (at, _) = better.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let (_, at) = better(&trials).min_by(|a, b| a.0.total_cmp(&b.0))?;
         self.bench.state(machines[at].clone())
     }
 
@@ -236,21 +232,12 @@ impl Search<'_, '_> {
         state
     }
 
-    /// Puts the candidates that help, best first. The rest comes back: those that changed no
-    /// program.
-    fn put_best(&self, state: &mut State, candidates: &[Changes]) -> Vec<Changes> {
+    /// Puts the candidates that help, best first.
+    fn put_best(&self, state: &mut State, candidates: &[Changes]) {
         let machines: Vec<Machine> =
             candidates.iter().map(|changes| state.machine.with(changes)).collect();
         let trials = self.bench.attempt_all(&machines, state);
-        let mut better: Vec<(f64, usize)> = Vec::new();
-        let mut inert = Vec::new();
-        for (at, trial) in trials.iter().enumerate() {
-            match trial {
-                Trial::Better(score) => better.push((*score, at)),
-                Trial::Inert => inert.push(candidates[at].clone()),
-                Trial::Worse | Trial::Impossible => {}
-            }
-        }
+        let mut better: Vec<(f64, usize)> = better(&trials).collect();
         better.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         for (_, at) in better {
             if self.bench.is_stopped() {
@@ -258,7 +245,6 @@ impl Search<'_, '_> {
             }
             self.put(state, &candidates[at]);
         }
-        inert
     }
 
     /// Rounds until nothing helps any more.
@@ -344,11 +330,6 @@ impl Search<'_, '_> {
         state
     }
 
-    /// Drops each change without which no fewer words are right: a price is no proof.
-    fn proven(&self, state: State) -> State {
-        self.take_back(state)
-    }
-
     /// The same programs over the base that needs fewest settings and can most.
     fn rebase(&self, state: State, bases: &[Arc<Base>]) -> State {
         let machines: Vec<Machine> = bases.iter().map(|base| state.machine.over(base)).collect();
@@ -368,6 +349,14 @@ impl Search<'_, '_> {
         let most = others.iter().map(can).max().unwrap_or(0);
         others.into_iter().find(|other| can(other) == most).unwrap_or(state)
     }
+}
+
+/// The trials that are better than the state before, with their scores and places.
+fn better(trials: &[Trial]) -> impl Iterator<Item = (f64, usize)> + '_ {
+    trials.iter().enumerate().filter_map(|(at, trial)| match trial {
+        Trial::Better(score) => Some((*score, at)),
+        Trial::Impossible | Trial::Inert | Trial::Worse => None,
+    })
 }
 
 /// How many codes a machine has: what no pair decides then comes from one with all cycles.
@@ -391,18 +380,30 @@ mod tests {
     use super::*;
     use crate::Pair;
 
-    #[test]
-    fn a_start_text_is_found_where_the_change_is_the_first_record() {
-        let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nRAPID\nGOTO / 1, 2, 30\n\
-                  FEDRAT / 200, MMPM\nGOTO / 1, 2, -0.5\nGOTO / 20.5, 2, -0.5\nFINI\n";
-        let builder = filpost::Program::builder().ready("brother-mill").option("style", "plain");
-        let program = builder.set("blocks.start=[\"G40 G80\"]").build().unwrap();
+    const CL: &str = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nRAPID\nGOTO / 1, 2, 30\n\
+                      FEDRAT / 200, MMPM\nGOTO / 1, 2, -0.5\nGOTO / 20.5, 2, -0.5\nFINI\n";
+
+    /// What is learned from the program of a post that begins from a ready post.
+    fn learned_of(builder: filpost::Builder, base: &str) -> Learned {
         let mut nc = Vec::new();
-        program.run_seekable(std::io::Cursor::new(cl), &mut nc).unwrap();
-        let pair = Pair::new("part.ncl", cl.as_bytes(), "part.nc", &nc);
-        let task = Task::new(vec![pair], Bases::Ready(vec!["brother-mill".into()]));
+        builder.build().unwrap().run_seekable(std::io::Cursor::new(CL), &mut nc).unwrap();
+        let pair = Pair::new("part.ncl", CL.as_bytes(), "part.nc", &nc);
+        let task = Task::new(vec![pair], Bases::Ready(vec![base.into()]));
         let learned = learn(&task).unwrap();
         assert!(learned.is_equal(), "{}", learned.report());
+        learned
+    }
+
+    #[test]
+    fn a_start_text_is_found_where_the_change_is_the_first_record() {
+        let builder = filpost::Program::builder().ready("brother-mill").option("style", "plain");
+        let learned = learned_of(builder.set("blocks.start=[\"G40 G80\"]"), "brother-mill");
         assert!(learned.machine_toml().contains("blocks.start = [\"G40 G80\"]"));
+    }
+
+    #[test]
+    fn the_style_of_a_ready_post_is_found() {
+        let learned = learned_of(filpost::Program::builder().ready("haas-mill"), "haas-mill");
+        assert_eq!(learned.options(), [("style".to_string(), "production".to_string())]);
     }
 }

@@ -60,11 +60,7 @@ pub(crate) fn proposals(bench: &Bench<'_>, state: &State) -> Vec<Changes> {
     // Texts that are there and are not in the proven programs.
     for (key, value) in &state.machine.changes {
         if let (Key::Texts(_), Value::Texts(texts)) = (key, value) {
-            for at in 0..texts.len() {
-                let mut fewer = texts.clone();
-                fewer.remove(at);
-                found.push(vec![(*key, Value::Texts(fewer))]);
-            }
+            found.extend(without_one(*key, texts));
         }
     }
     found.extend(base_texts(state));
@@ -109,13 +105,18 @@ fn base_texts(state: &State) -> Vec<Changes> {
         if !texts.is_empty() {
             found.push(vec![(key, Value::Texts(Vec::new()))]);
         }
-        for at in 0..texts.len() {
-            let mut fewer = texts.clone();
-            fewer.remove(at);
-            found.push(vec![(key, Value::Texts(fewer))]);
-        }
+        found.extend(without_one(key, &texts));
     }
     found
+}
+
+/// A list without each of its texts.
+fn without_one(key: Key, texts: &[String]) -> impl Iterator<Item = Changes> + '_ {
+    (0..texts.len()).map(move |at| {
+        let mut fewer = texts.to_vec();
+        fewer.remove(at);
+        vec![(key, Value::Texts(fewer))]
+    })
 }
 
 fn gaps(bench: &Bench<'_>, state: &State, program: &Program, pair: usize) -> Option<Gaps> {

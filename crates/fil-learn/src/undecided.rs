@@ -6,16 +6,13 @@ use filpost::commons::EMPTY;
 use filpost::locations::ValueUnit;
 use filpost::{Commons, stored};
 
-use crate::candidates::{self, Alternatives};
+use crate::candidates::{self, Alternatives, OTHER_CODE};
 use crate::change::{self, Changes, Key, Value};
 use crate::readings;
 use crate::trial::{Bench, State, Trial};
 
 /// Values of one setting that are kept.
 const MOST_VALUES: usize = 3;
-
-/// A code that no machine has.
-const OTHER_CODE: f64 = 77.0;
 
 /// Settings with other values that make the same programs, in the order of the table.
 pub(crate) fn find(bench: &Bench<'_>, alternatives: &Alternatives, state: &State) -> Vec<Changes> {

@@ -13,6 +13,18 @@ pub(crate) struct Block {
     pub has_blank: bool,
 }
 
+impl Block {
+    /// The block with its sequence number.
+    pub fn whole(&self) -> String {
+        format!("{} {}", self.number, self.text).trim().to_string()
+    }
+}
+
+/// Each block with its sequence number, as a hash.
+pub(crate) fn numbered_lines(blocks: &[Block]) -> Vec<u64> {
+    blocks.iter().map(|block| hash(block.whole().as_bytes())).collect()
+}
+
 /// A word of a block.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Word {

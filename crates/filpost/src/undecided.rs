@@ -7,7 +7,7 @@
 use std::io::Cursor;
 
 use fil_diag::{Diag, TextSpan};
-use fil_machine::{Commons, contradictions, files as settings};
+use fil_machine::{Commons, files as settings};
 
 use crate::error::RunCode;
 use crate::program::Program;
@@ -89,13 +89,13 @@ impl Search<'_> {
         }
     }
 
-    /// The machine with other settings; `None` where these contradict each other.
+    /// The machine with other settings; `None` for one that it can't take.
     fn machine(&self, undecided: &[&str]) -> Option<Commons> {
         let mut commons = self.program.commons().clone();
         for setting in undecided {
             settings::apply_setting(&mut commons, setting).ok()?;
         }
-        contradictions::all(&commons).is_empty().then_some(commons)
+        Some(commons)
     }
 
     fn post(&self, program: Program) -> Option<Vec<u8>> {
