@@ -101,7 +101,7 @@ fn carry_out(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resul
     if record.inert {
         return note(post, record, vocabulary);
     }
-    if !post.control.messages.is_empty() && !takes_messages(record.major) {
+    if !post.control.tools.messages.is_empty() && !takes_messages(record.major) {
         way_home::write_messages(&mut post.control)?;
     }
     match dispatch::of(record.major) {
@@ -110,6 +110,9 @@ fn carry_out(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resul
                 word::csys::refuse_read_again(post)?;
             }
             let target = target(post, record, vocabulary)?;
+            if let Some(coolant) = post.control.tools.coolant {
+                way_home::resume_coolant(&mut post.control, coolant)?;
+            }
             handle(post, target)
         }
         Some(Handler::Items(handle)) => {

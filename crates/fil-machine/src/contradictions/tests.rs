@@ -162,6 +162,8 @@ fn contradictions_are_found() {
         "seqno.align=1\ntape.align_char=(",
         "seqno.align=1\ntape.align_char=%",
         "seqno.align=1\ntape.align_char=O",
+        "home.frame=2\nhome.x=5",
+        "home.frame=3\ntool.change_x=-1",
         "message.out_char=/",
         "message.out_char=G",
         "message.out_char=[\nmessage.in_char=)",

@@ -65,6 +65,13 @@ impl Expected {
             self.coolant.require(coolant, Due::Now);
         }
     }
+
+    /// The coolant that a tool change has switched off by its settings comes on again.
+    pub(super) fn resume_coolant(&mut self, settings: &Settings) {
+        if let coolant @ Some(_) = self.restarts.coolant.was_on.take() {
+            self.coolant.require(coolant, settings.coolant_due());
+        }
+    }
 }
 
 impl<C: Steps> Verifier<'_, C> {

@@ -182,9 +182,10 @@ impl Expected {
         self.fixture.allowed = offsets;
     }
 
-    /// A tool change says the work offset of the machine where no record has named one.
+    /// A tool change says the work offset of the machine where nothing has named one.
     pub(super) fn take_first_offset(&mut self, settings: &Settings) {
-        let first = settings.first_work_offset().filter(|_| !self.fixture.is_asked);
+        let is_named = self.fixture.is_asked || matches!(self.fixture.must, Some(Some(_)));
+        let first = settings.first_work_offset().filter(|_| !is_named);
         if first.is_some() {
             self.fixture.must = Some(first);
         }

@@ -174,7 +174,7 @@ impl<C: Steps> Verifier<'_, C> {
         false
     }
 
-    /// The program moves on under tool-tip control.
+    /// The next motion is one under tool center point control.
     fn goes_on_under_tip_control(&self) -> bool {
         let next = self.next_move().filter(|found| found.to.tip_control);
         next.is_some_and(|found| {

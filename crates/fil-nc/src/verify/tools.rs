@@ -72,6 +72,9 @@ impl<C: Steps> Verifier<'_, C> {
         }
         self.expected.change_tool(number, offset, self.settings);
         self.expected.take_first_offset(self.settings);
+        if self.settings.switches_off_at_change() {
+            self.expected.resume_coolant(self.settings);
+        }
         self.go_to_offset_level(cl_line);
         self.take_blocks_after_change();
     }

@@ -123,6 +123,20 @@ fn block(control: &mut Control, motion: &Motion) -> Result<()> {
     Ok(())
 }
 
+/// Writes the block under construction as a way to the reference point. A lathe has letters of
+/// increments; a mill turns to increments and back.
+fn to_reference(control: &mut Control, function: FunctionCode) -> Result<()> {
+    control.g(function);
+    if control.commons.read(loc::LATHE_DIAMETER) {
+        return control.write_block();
+    }
+    let code = |control: &Control, at| control.code(at, "the way to the reference point");
+    control.g(code(control, loc::MODE_INCREMENTAL_CODE)?);
+    control.write_block()?;
+    control.g(code(control, loc::MODE_ABSOLUTE_CODE)?);
+    control.write_block()
+}
+
 /// Writes the block under construction as a rapid motion to a position of the machine by its
 /// function (G53), and ends the length of the cutting edge in it (D0). To the reference point it
 /// goes straight, by an increment of 0 (`G28 G91 Z0.`).
@@ -131,16 +145,7 @@ fn block(control: &mut Control, motion: &Motion) -> Result<()> {
 /// The machine has no code for rapid motions, or none for increments.
 pub(super) fn by_code(control: &mut Control, ends_edge: bool) -> Result<()> {
     if let Some(function) = reference(control) {
-        let [increments, absolute] = [loc::MODE_INCREMENTAL_CODE, loc::MODE_ABSOLUTE_CODE]
-            .map(|at| control.code(at, "the way to the reference point"));
-        control.g(function);
-        if control.commons.read(loc::LATHE_DIAMETER) {
-            return control.write_block();
-        }
-        control.g(increments?);
-        control.write_block()?;
-        control.g(absolute?);
-        return control.write_block();
+        return to_reference(control, function);
     }
     let code = control.code(loc::RAPID_CODE_Z, "rapid motion")?;
     control.g(MACHINE);

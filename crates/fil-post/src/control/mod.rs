@@ -105,6 +105,11 @@ pub(crate) struct Tools {
     pub work_offset: Option<Option<i64>>,
     /// The first tool of each length offset.
     pub of_offset: BTreeMap<i64, i64>,
+    /// The coolant that a tool change has switched off, by its settings: it comes on again at the
+    /// next point, unless COOLNT comes first.
+    pub coolant: Option<CodeAt>,
+    /// Messages that wait for a tool change, with their causes.
+    pub messages: Vec<(String, Cause)>,
 }
 
 /// The output side of the post.
@@ -148,8 +153,6 @@ pub struct Control {
     pub(crate) coolant: Option<CodeAt>,
     /// Tools that were changed and prepared.
     pub(crate) tools: Tools,
-    /// Messages that wait for a tool change, with their causes.
-    pub(crate) messages: Vec<(String, Cause)>,
     /// The compensation the CL file asks for.
     asked: Compensation,
     /// ARCSLP is on: blocks of a helix say how far it rises.
@@ -190,7 +193,6 @@ impl Control {
             rotary: full_turn::Rotary::default(),
             spindle: spindle::SpindleAsked::default(),
             tools: Tools::default(),
-            messages: Vec::new(),
             block: Block::default(),
             straight: false,
             moved_in_plane_behind: 0,

@@ -12,7 +12,7 @@ use fil_machine::setting::{CharacterAt, CodeAt};
 use fil_machine::{Commons, FunctionCode, osp_lengths, user_blocks};
 
 use super::Control;
-use super::texts::MessageMarks;
+use super::texts::{MessageMarks, clean_message};
 use crate::cause::Cause;
 use crate::control::needs::Act;
 use crate::control_state::{ControlState, Distance, Source, modal};
@@ -266,7 +266,7 @@ fn safe_start_blocks(control: &mut Control) -> Result<()> {
     Ok(())
 }
 
-/// Says plane, coordinates and feed mode again, so that the program can be begun here.
+/// Restates plane, coordinates and feed mode, so that the program can be begun here.
 ///
 /// # Errors
 /// As a block on the tape.
@@ -353,9 +353,7 @@ fn program_number(control: &mut Control) -> Result<()> {
     let mut line = format!("{letter}{number:0width$}");
     if control.commons.read(loc::PROGRAM_NAME_COMMENT) && !control.head.name.is_empty() {
         let name = control.head.name.replace(['(', ')'], " ");
-        let name = control.in_tape_characters(&name);
-        let end = control.tables.style.end_of_block;
-        let (name, _) = super::texts::clean_message(&name, ['(', ')'], end);
+        let name = cleaned(control, &name, ['(', ')']);
         line.push_str(&format!(" ({name})"));
     }
     let from_part = fixed.is_none() && control.head.number.is_some();
@@ -386,11 +384,9 @@ pub fn tool_list(control: &mut Control) -> Result<()> {
         control.warnings.add(PostCode::IgnoredPart, message.to_string());
         return Ok(());
     };
-    let end = control.tables.style.end_of_block;
     let (marks, brackets) = (MessageMarks::of(control), control.can().brackets_are_comments);
     for tool in tools {
-        let (tool, _) = super::texts::clean_message(&tool, marks.both(), end);
-        let tool = control.in_tape_characters(&tool);
+        let tool = cleaned(control, &tool, marks.both());
         let line = if brackets { marks.enclose(&tool) } else { format!("; {tool}") };
         control.put_line(&line, false)?;
     }
@@ -404,11 +400,15 @@ fn part_name(control: &mut Control) -> Result<()> {
         return Ok(());
     }
     let marks = MessageMarks::of(control);
-    let name = control.in_tape_characters(&control.head.name.clone());
-    let end = control.tables.style.end_of_block;
-    let (name, _) = super::texts::clean_message(&name, marks.both(), end);
+    let name = cleaned(control, &control.head.name.clone(), marks.both());
     let cause = control.head.cause;
     control.because(cause, |control| control.put_line(&marks.enclose(&name), false)).map(|_| ())
+}
+
+/// A text in the characters of the tape, without what must not stand in a comment between `marks`.
+fn cleaned(control: &mut Control, text: &str, marks: [char; 2]) -> String {
+    let text = control.in_tape_characters(text);
+    clean_message(&text, marks, control.tables.style.end_of_block).0.into_owned()
 }
 
 /// Writes the leader or the trailer of a tape that is no direct transfer.

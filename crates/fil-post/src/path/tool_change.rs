@@ -66,7 +66,7 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     write_blocks(control, around[0])?;
     control.because(cause, |control| {
         if !is_first {
-            way_home::switch_off(control)?;
+            way_home::switch_off_for_change(control)?;
         }
         go_to_change_position(control, cause)?;
         if is_first { Ok(()) } else { way_home::stop_at_change(control) }

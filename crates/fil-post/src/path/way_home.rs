@@ -2,21 +2,47 @@
 //! coolant and spindle off, and the way to its home position.
 
 use fil_diag::Result;
+use fil_machine::FunctionCode;
 use fil_machine::locations::{self as loc, ProgramEndBlock, ToolChangeStop};
+use fil_machine::setting::CodeAt;
 
 use super::{height, machine_position};
 use crate::control::machine_frame::Before;
-use crate::control::word_address::{cycle, spindle};
+use crate::control::word_address::{coolant, cycle, fixture, spindle};
 use crate::control::{Control, program};
 use crate::control_state::{Source, modal};
 use crate::operation::{Coolant, Operation, Spindle, Stop};
 use crate::post::Post;
 
+/// Ends coolant and spindle before a tool change, where the machine does so. The coolant comes on
+/// again at the next point.
+///
+/// # Errors
+/// As [`switch_off`].
+pub(super) fn switch_off_for_change(control: &mut Control) -> Result<()> {
+    let coolant = control.coolant;
+    switch_off(control)?;
+    if control.coolant.is_none() {
+        control.tools.coolant = coolant;
+    }
+    Ok(())
+}
+
+/// Switches the coolant on again that a tool change has switched off.
+///
+/// # Errors
+/// As its block.
+#[cold]
+pub(crate) fn resume_coolant(control: &mut Control, at: CodeAt) -> Result<()> {
+    control.begin()?;
+    coolant::switch_on(control, at)
+}
+
 /// Ends coolant and spindle where they are on and the machine does so before it goes home.
 ///
 /// # Errors
 /// The machine has no codes for it.
-pub(super) fn switch_off(control: &mut Control) -> Result<()> {
+fn switch_off(control: &mut Control) -> Result<()> {
     if !control.commons.read(loc::HOME_SWITCHES_OFF) {
         return Ok(());
     }
@@ -47,14 +73,15 @@ pub(super) fn stop_at_change(control: &mut Control) -> Result<()> {
 /// # Errors
 /// As a line on the tape.
 pub(crate) fn write_messages(control: &mut Control) -> Result<()> {
-    for (text, cause) in std::mem::take(&mut control.messages) {
+    for (text, cause) in std::mem::take(&mut control.tools.messages) {
         control
             .because(cause, |control| control.family().write(control, Operation::Message(text)))?;
     }
     Ok(())
 }
 
-/// Says modes and work offset again behind a tool change, so that the program can be begun there.
+/// Restates modes and work offset after a tool change, so that the program can be begun there. An
+/// offset that a block of the author has chosen stays.
 ///
 /// # Errors
 /// A work offset that the machine lacks.
@@ -62,22 +89,31 @@ pub(super) fn restate(control: &mut Control) -> Result<()> {
     if control.commons.read(loc::TOOL_CHANGE_MODES) {
         program::say_modes_again(control)?;
     }
-    match work_offset_in_force(control) {
-        Some(number) if control.commons.int_opt(loc::FIXTURE_FIRST).is_some() => {
-            control.family().write(control, Operation::WorkOffset(number))
-        }
-        _ => Ok(()),
+    if control.commons.int_opt(loc::FIXTURE_FIRST).is_none() {
+        return Ok(());
+    }
+    match (offset_of_author(control), work_offset_in_force(control)) {
+        (Some(code), _) => fixture::restate(control, code),
+        (None, Some(number)) => control.family().write(control, Operation::WorkOffset(number)),
+        (None, None) => Ok(()),
     }
 }
 
-/// The work offset that was named last, or the first one of the machine.
+/// The work offset that was named last, or the first one of the machine; `None` where a block of
+/// the author has chosen another.
 fn work_offset_in_force(control: &Control) -> Option<Option<i64>> {
     let first = control.commons.int_opt(loc::FIXTURE_FIRST).map(|first| Some(i64::from(first)));
-    control.tools.work_offset.or(first)
+    control.tools.work_offset.or(first).filter(|_| offset_of_author(control).is_none())
+}
+
+/// The work offset in force, if a block of the author has chosen it.
+fn offset_of_author(control: &Control) -> Option<FunctionCode> {
+    let code = control.state.get(modal::WORK_OFFSET)?;
+    (control.state.get(modal::ASKED_OFFSET) != Some(code)).then_some(code)
 }
 
 /// Takes a work offset; before another one the tool goes up, where the machine asks for it. The
-/// one that a tool change has just said again is not said twice.
+/// one that a tool change has just restated is not written twice.
 ///
 /// # Errors
 /// As the way up, and as a work offset.

@@ -20,7 +20,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         return Ok(());
     }
     if post.control.commons.read(loc::MESSAGE_WAITS) {
-        post.control.messages.push((text, post.control.block.cause.whole()));
+        post.control.tools.messages.push((text, post.control.block.cause.whole()));
         return Ok(());
     }
     carry_out(post, Operation::Message(text))

@@ -144,9 +144,14 @@ impl Settings<'_> {
         self.commons.read(at).or_else(|| self.commons.read(usual)).map(number)
     }
 
+    /// Coolant and spindle end before a tool change and before the end of the program.
+    pub fn switches_off_at_change(&self) -> bool {
+        self.commons.read(loc::HOME_SWITCHES_OFF)
+    }
+
     /// The functions that end coolant and spindle before the way home, as blocks.
     pub fn blocks_of_switching_off(&self) -> Vec<String> {
-        if !self.commons.read(loc::HOME_SWITCHES_OFF) {
+        if !self.switches_off_at_change() {
             return Vec::new();
         }
         let codes = [loc::COOLANT_OFF_CODE, loc::SPINDLE_STOP_CODE];

@@ -17,10 +17,20 @@ pub fn write(control: &mut Control, coolant: Coolant) -> Result<()> {
         Coolant::Off => return off(control),
         Coolant::On(kind, pressure) => of_the_machine(control, kind, pressure),
     };
-    let changes = control.coolant.replace(at).is_some_and(|before| before != at);
+    let changes = control.coolant.is_some_and(|before| before != at);
     if changes && control.commons.read(loc::COOLANT_PRINT_OFF) {
         write_off(control)?;
     }
+    switch_on(control, at)
+}
+
+/// Switches a coolant on by its code.
+///
+/// # Errors
+/// As [`Control::write_block`].
+pub(crate) fn switch_on(control: &mut Control, at: CodeAt) -> Result<()> {
+    control.coolant = Some(at);
+    control.tools.coolant = None;
     add(control, at);
     let placement = control.commons.read(loc::COOLANT_PLACEMENT);
     control.place_block(Function::Coolant, placement)
@@ -28,6 +38,7 @@ pub fn write(control: &mut Control, coolant: Coolant) -> Result<()> {
 
 fn off(control: &mut Control) -> Result<()> {
     control.coolant = None;
+    control.tools.coolant = None;
     write_off(control)
 }
 

@@ -55,6 +55,16 @@ pub(in crate::control) fn write_code(control: &mut Control, code: FunctionCode) 
     place(control)
 }
 
+/// Restates the offset in force; which one the CL file asks for stays as it was.
+///
+/// # Errors
+/// Cutter compensation.
+pub(crate) fn restate(control: &mut Control, code: FunctionCode) -> Result<()> {
+    prepare(control)?;
+    control.g(code);
+    control.write_block()
+}
+
 /// Ends what a change of the work offset must not interrupt.
 ///
 /// # Errors

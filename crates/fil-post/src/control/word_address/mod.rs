@@ -3,11 +3,11 @@
 
 pub mod arc;
 pub mod compensation;
-pub(super) mod coolant;
+pub(crate) mod coolant;
 pub mod cycle;
 pub mod dwell;
 pub mod family;
-pub(super) mod fixture;
+pub(crate) mod fixture;
 pub mod frame;
 mod function;
 pub mod modes;
