@@ -29,7 +29,7 @@ pub const ROUNDED: [&str; 18] = [
 
 /// Words of an axis, by the program, the letter and the block, that bring no tool to the part
 /// elsewhere, whatever they say.
-pub const IDLE: [(&str, u8, &str); 42] = [
+pub const IDLE: [(&str, u8, &str); 43] = [
     // Where a long line is divided: the tool goes through the point, and no block is too long.
     ("words/goto-longer-than-a-block-may-be", b'X', "`G1 X35. F100.`"),
     // The rapid back after a repositioning ends farther away: more of the way is made at feed.
@@ -51,6 +51,7 @@ pub const IDLE: [(&str, u8, &str); 42] = [
     ("corpus/klartext/helices", b'Y', "C X-13.333 Y+3.333 DR+`"),
     // The pole of the helix before is as near as its last digits say.
     ("corpus/klartext/helices", b'Y', "CC X-13.3333 Y-0.0002`"),
+    ("words/circle-full-behind-a-helix-in-klartext", b'X', "CC X+29.9266 Y-25.3024`"),
     ("heidenhain-tnc640/inches", b'X', "CC X+0.75004 Y+0.50002`"),
     ("heidenhain-tnc640/inches", b'Y', "CC X+0.75004 Y+0.50002`"),
     // A rapid beside the part, from which the cycle goes to its own place.
