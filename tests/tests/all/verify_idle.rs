@@ -29,7 +29,7 @@ pub const ROUNDED: [&str; 18] = [
 
 /// Words of an axis, by the program, the letter and the block, that bring no tool to the part
 /// elsewhere, whatever they say.
-pub const IDLE: [(&str, u8, &str); 43] = [
+pub const IDLE: [(&str, u8, &str); 45] = [
     // Where a long line is divided: the tool goes through the point, and no block is too long.
     ("words/goto-longer-than-a-block-may-be", b'X', "`G1 X35. F100.`"),
     // The rapid back after a repositioning ends farther away: more of the way is made at feed.
@@ -52,6 +52,7 @@ pub const IDLE: [(&str, u8, &str); 43] = [
     // The pole of the helix before is as near as its last digits say.
     ("corpus/klartext/helices", b'Y', "CC X-13.3333 Y-0.0002`"),
     ("words/circle-full-behind-a-helix-in-klartext", b'X', "CC X+29.9266 Y-25.3024`"),
+    ("words/circle-full-behind-a-helix-in-klartext", b'Y', "CC X+29.9266 Y-25.3024`"),
     ("heidenhain-tnc640/inches", b'X', "CC X+0.75004 Y+0.50002`"),
     ("heidenhain-tnc640/inches", b'Y', "CC X+0.75004 Y+0.50002`"),
     // A rapid beside the part, from which the cycle goes to its own place.
@@ -59,8 +60,10 @@ pub const IDLE: [(&str, u8, &str); 43] = [
     ("heidenhain-tnc640/holes", b'Y', "L X+0 Y+20 FMAX`"),
     ("words/cycle-return-behind-another-zero-goes-across-first", b'X', "`X20. Y0.`"),
     ("words/cycle-return-behind-another-zero-goes-across-first", b'Y', "`X20. Y0.`"),
-    ("words/thread-by-cycle97", b'X', "`G0 X28 Z3`"),
-    ("words/thread-by-cycle97", b'Z', "`G0 X28 Z3`"),
+    ("words/thread-by-cycle97", b'X', "`G0 X28 Z"),
+    ("words/thread-by-cycle97", b'Z', "`G0 X28 Z"),
+    // Without the level above the holes the tool travels higher.
+    ("words/cycle-rapto-from-clear", b'Z', "`Z3.`"),
     // The height to which the tool goes up, and from which it comes back at feed.
     ("words/cycle-bore-single-moves-as-its-cycle", b'Z', "`Z302.`"),
     ("words/rotary-limit-retracts-", b'Z', "Z4.508`"),
