@@ -297,6 +297,15 @@ void filpost_builder_free(struct filpost_builder *builder);
 struct filpost_error *filpost_builder_ready(struct filpost_builder *builder, const char *name);
 
 /*
+ Takes the post in a folder: its `machine.toml` and, where there is one, `post.fil`. After an
+ error the builder is as new.
+
+ # Safety
+ `builder` is live; `folder` ends with a NUL.
+ */
+struct filpost_error *filpost_builder_folder(struct filpost_builder *builder, const char *folder);
+
+/*
  Takes the text of a `machine.toml`; messages show `name`.
 
  # Safety
@@ -381,6 +390,15 @@ struct filpost_error *filpost_builder_option(struct filpost_builder *builder,
 struct filpost_error *filpost_builder_level(struct filpost_builder *builder,
                                             const char *code,
                                             const char *level);
+
+/*
+ Sets what DATEF and TIMEF give: `system` for the time of the run in UTC, or a moment such as
+ `2026-01-31T12:00:00`. A script that asks for the time is refused without.
+
+ # Safety
+ `builder` is live; `clock` ends with a NUL.
+ */
+struct filpost_error *filpost_builder_clock(struct filpost_builder *builder, const char *clock);
 
 /*
  Bounds what a run may use up: `fuel` (steps of a section), `call_depth`, `array_elements`,
@@ -676,6 +694,15 @@ void filpost_text_free(struct filpost_text *text);
  The version of the library, `0.1.0`.
  */
 const char *filpost_version(void);
+
+/*
+ Explains a code (`E0501`), a setting, a CL or FIL word, a function, a location
+ (`INTCOM 1861`), a G or M code or a ready post; NULL where there is no help.
+
+ # Safety
+ `subject` ends with a NUL.
+ */
+struct filpost_text *filpost_explain(const char *subject);
 
 /*
  Compares two NC programs as a control reads them. `differences` is a JSON array of

@@ -243,6 +243,16 @@ class Builder {
         detail::check(filpost_builder_ready(handle.get(), name.c_str()));
         return *this;
     }
+    /// The post in a folder: its machine.toml and, where there is one, post.fil.
+    Builder &folder(const std::string &path) {
+        detail::check(filpost_builder_folder(handle.get(), path.c_str()));
+        return *this;
+    }
+    /// `system`, or a moment such as `2026-01-31T12:00:00`.
+    Builder &clock(const std::string &clock) {
+        detail::check(filpost_builder_clock(handle.get(), clock.c_str()));
+        return *this;
+    }
     Builder &machine(const std::string &name, const std::string &text) {
         detail::check(filpost_builder_machine(handle.get(), name.c_str(), text.c_str()));
         return *this;
@@ -289,6 +299,16 @@ class Builder {
         return Program(program);
     }
 };
+
+/// What a code, a setting, a word, a function, a G or M code or a ready post means; nothing
+/// where there is no help.
+inline std::optional<std::string> explain(const std::string &subject) {
+    detail::Handle<filpost_text, filpost_text_free> text(filpost_explain(subject.c_str()));
+    if (!text.get()) {
+        return std::nullopt;
+    }
+    return filpost_text_get(text.get());
+}
 
 } // namespace filpost
 

@@ -83,6 +83,27 @@ pub unsafe extern "C" fn filpost_builder_ready(
     unsafe { change_named(builder, [name, name], |builder, name, _| builder.ready(name)) }
 }
 
+/// Takes the post in a folder: its `machine.toml` and, where there is one, `post.fil`. After an
+/// error the builder is as new.
+///
+/// # Safety
+/// `builder` is live; `folder` ends with a NUL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn filpost_builder_folder(
+    builder: *mut Builder,
+    folder: *const c_char,
+) -> *mut Error {
+    guarded(|| {
+        // SAFETY: the caller promises what `text` asks for.
+        let folder = unsafe { pointer::text(folder, "folder") }?;
+        // SAFETY: the caller promises what `handle_mut` asks for.
+        let held = unsafe { pointer::handle_mut(builder, "builder") }?;
+        let taken = std::mem::replace(&mut held.builder, filpost::Program::builder());
+        held.builder = taken.folder(folder.as_ref())?;
+        Ok(())
+    })
+}
+
 /// Takes the text of a `machine.toml`; messages show `name`.
 ///
 /// # Safety
@@ -216,6 +237,27 @@ pub unsafe extern "C" fn filpost_builder_level(
         let (of, level) = filpost::level_named(code, level).map_err(|diag| Wrong::diag(*diag))?;
         // SAFETY: the caller promises what `change` asks for.
         unsafe { change(builder, |builder| builder.level(of, level)) }
+    })
+}
+
+/// Sets what DATEF and TIMEF give: `system` for the time of the run in UTC, or a moment such as
+/// `2026-01-31T12:00:00`. A script that asks for the time is refused without.
+///
+/// # Safety
+/// `builder` is live; `clock` ends with a NUL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn filpost_builder_clock(
+    builder: *mut Builder,
+    clock: *const c_char,
+) -> *mut Error {
+    guarded(|| {
+        // SAFETY: the caller promises what `text` asks for.
+        let name = unsafe { pointer::text(clock, "clock") }?;
+        let Some(clock) = filpost::Clock::named(name) else {
+            return Err(Wrong::usage(format!("there is no clock {name}")));
+        };
+        // SAFETY: the caller promises what `change` asks for.
+        unsafe { change(builder, |builder| builder.clock(clock)) }
     })
 }
 

@@ -52,6 +52,21 @@ pub extern "C" fn filpost_version() -> *const c_char {
     VERSION.as_ptr()
 }
 
+/// Explains a code (`E0501`), a setting, a CL or FIL word, a function, a location
+/// (`INTCOM 1861`), a G or M code or a ready post; NULL where there is no help.
+///
+/// # Safety
+/// `subject` ends with a NUL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn filpost_explain(subject: *const c_char) -> *mut Text {
+    guarded_or(ptr::null_mut(), || {
+        // SAFETY: the caller promises what `text` asks for.
+        let subject = unsafe { pointer::text(subject, "subject") };
+        let text = subject.ok().and_then(|subject| filpost::explain::explain(subject, &[]));
+        text.map_or(ptr::null_mut(), |text| give(&text))
+    })
+}
+
 /// Compares two NC programs as a control reads them. `differences` is a JSON array of
 /// `{"lines":[5,5],"message":"…"}`, empty when they say the same. `tolerance` is in the unit of
 /// the programs and in degrees.

@@ -379,12 +379,38 @@ static void hostile(void) {
     filpost_program_free(program);
 }
 
+/* A post in a folder, a clock, and what a code means. */
+static void folders_and_clocks(void) {
+    filpost_builder *builder = filpost_builder_new();
+    filpost_program *program = NULL;
+    filpost_output *output = NULL;
+    filpost_text *text;
+    const char *nc;
+
+    refused(filpost_builder_folder(builder, "no/such/folder"), "E0701");
+    well(filpost_builder_folder(builder, "tests/folder"));
+    refused(filpost_builder_clock(builder, "noon"), "USAGE");
+    well(filpost_builder_clock(builder, "2026-01-31T12:00:00"));
+    well(filpost_builder_build(builder, &program));
+    well(filpost_run(program, bytes(CL), strlen(CL), NULL, &output));
+    nc = filpost_output_nc(output, NULL);
+    MUST(strstr(nc, "(TOOL 3 OF 2026)") != NULL);
+    filpost_output_free(output);
+    filpost_program_free(program);
+
+    text = filpost_explain("G83");
+    MUST(text != NULL && strncmp(filpost_text_get(text), "G83", 3) == 0);
+    filpost_text_free(text);
+    MUST(filpost_explain("QWXYZ9") == NULL && filpost_explain(NULL) == NULL);
+}
+
 int main(void) {
     MUST(strlen(filpost_version()) >= 5);
     programs_and_runs();
     options();
     functions();
     checks();
+    folders_and_clocks();
     wrong_calls();
     answers();
     hostile();

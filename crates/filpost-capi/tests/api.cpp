@@ -75,6 +75,10 @@ int main() {
         MUST(error.code()[0] == 'E' && !error.cause);
     }
 
+    auto of_a_folder = filpost::Builder().folder("tests/folder").clock("2026-01-31T12:00:00").build();
+    MUST(of_a_folder.run(CL).nc().find("(TOOL 3 OF 2026)") != std::string_view::npos);
+    MUST(filpost::explain("G83").value().find("G83") == 0 && !filpost::explain("QWXYZ9"));
+
     std::string text;
     post.blocks(CL, [&](const filpost_block &block) {
         text += std::string(block.text) + "\n";

@@ -236,11 +236,9 @@ pub fn compat(reading: &Reading) -> Result<CompatFile, Error> {
 
 /// A folder with `machine.toml` and, where there is one, `post.fil`.
 fn folder(folder: &Path, encoding: Option<&str>) -> Result<Named, Error> {
-    let mut named = machine_file(&folder.join("machine.toml"), encoding)?;
-    let fil = folder.join("post.fil");
-    if fil.is_file() {
-        named.fil.push(fil);
-    }
+    let (machine, fil) = files::of_post(folder);
+    let mut named = machine_file(&machine, encoding)?;
+    named.fil.extend(fil);
     named.title = folder.display().to_string();
     Ok(named)
 }

@@ -2,7 +2,7 @@
 
 use filpost::cl::ClDialect;
 use filpost::cl::reader::Options;
-use filpost::{Builder, Limits, Program, Unit};
+use filpost::{Builder, Clock, Limits, Program, Unit};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -15,6 +15,7 @@ pub type NamedText = (String, String);
 #[derive(FromPyObject)]
 pub struct Parts {
     ready: Option<String>,
+    folder: Option<std::path::PathBuf>,
     machine: Option<NamedText>,
     option_file: Option<NamedText>,
     over: Vec<NamedText>,
@@ -27,6 +28,7 @@ pub struct Parts {
     strict: bool,
     allow: Vec<String>,
     levels: Vec<(String, String)>,
+    clock: Option<String>,
     read: Option<std::path::PathBuf>,
     write: Option<std::path::PathBuf>,
 }
@@ -44,6 +46,9 @@ fn builder(py: Python<'_>, parts: Parts) -> PyResult<Builder> {
     let mut builder = Program::builder().limits(limits(&parts.limits)?).strict(parts.strict);
     if let Some(name) = &parts.ready {
         builder = builder.ready(name);
+    }
+    if let Some(folder) = &parts.folder {
+        builder = builder.folder(folder).map_err(|wrong| diag::error(py, &wrong))?;
     }
     if let Some((name, text)) = &parts.machine {
         builder = builder.machine(name, text);
@@ -78,6 +83,11 @@ fn builder(py: Python<'_>, parts: Parts) -> PyResult<Builder> {
         let named = filpost::level_named(code, level);
         let (of, level) = named.map_err(|wrong| diag::refused(py, &wrong))?;
         builder = builder.level(of, level);
+    }
+    if let Some(clock) = &parts.clock {
+        builder = builder.clock(Clock::named(clock).ok_or_else(|| {
+            PyValueError::new_err(format!("no clock `{clock}`; give \"system\" or a datetime"))
+        })?);
     }
     if let Some(folder) = parts.read {
         builder = builder.grant_read(folder);

@@ -19,12 +19,15 @@ pub fn ready_posts() -> Vec<&'static str> {
     filpost::ready::READY.iter().map(|post| post.name).collect()
 }
 
-/// Title, reason and hint of a code.
+/// What a subject means: a code, a setting, a word, a function, a location, a G or M code, a
+/// ready post.
 #[pyfunction]
-pub fn explain(code: &str) -> PyResult<(&'static str, &'static str, &'static str)> {
-    let found = filpost::all_codes().into_iter().find(|row| row.name().eq_ignore_ascii_case(code));
-    let row = found.ok_or_else(|| PyKeyError::new_err(format!("there is no code {code}")))?;
-    Ok((row.title, row.reason, row.hint))
+pub fn explain(subject: &str) -> PyResult<String> {
+    filpost::explain::explain(subject, &[]).ok_or_else(|| {
+        let near = filpost::explain::nearest(subject);
+        let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+        PyKeyError::new_err(format!("no help for `{subject}`{near}"))
+    })
 }
 
 /// What a run would refuse or warn of in FIL files, and lints.

@@ -1,7 +1,7 @@
 //! Building a program: machine, FIL files, limits, functions, grants.
 
 #[cfg(feature = "files")]
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use fil_cl::Vocabulary;
@@ -20,7 +20,11 @@ use crate::allow::LevelOf;
 use crate::compat::CompatFile;
 use crate::editing;
 use crate::error::Error;
+#[cfg(feature = "files")]
+use crate::files;
 use crate::granted::{Clock, Spawn};
+#[cfg(feature = "files")]
+use crate::includes;
 use crate::machine::{self, Layers, Machine};
 use crate::program::{Program, Shared};
 use crate::script_files::Folders;
@@ -144,6 +148,23 @@ impl Builder {
     pub fn fil(mut self, name: &str, text: &str) -> Self {
         self.fil.push((name.into(), text.into()));
         self
+    }
+
+    /// The post in a folder: its `machine.toml` and, where there is one, `post.fil`, whose
+    /// INCLUD finds files beside it.
+    ///
+    /// # Errors
+    /// E0701 for a file that can't be read.
+    #[cfg(feature = "files")]
+    pub fn folder(self, folder: &Path) -> Result<Self, Error> {
+        let (machine, fil) = files::of_post(folder);
+        let name = |path: &Path| path.display().to_string();
+        let mut builder = self.machine(&name(&machine), &files::read_text(&machine, None)?);
+        if let Some(fil) = &fil {
+            builder = builder.fil(&name(fil), &files::read_text(fil, None)?);
+        }
+        let fil: Vec<PathBuf> = fil.into_iter().collect();
+        Ok(builder.includes(includes::beside_either(&fil, &[machine], None)))
     }
 
     /// What a script may use up before it is stopped.

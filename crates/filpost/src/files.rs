@@ -14,6 +14,12 @@ use crate::pending::{NewFile, PendingFiles};
 #[cfg(feature = "files")]
 pub use crate::pending::give_up;
 
+/// The `machine.toml` of a post in a folder, and its `post.fil` where there is one.
+pub fn of_post(folder: &Path) -> (PathBuf, Option<PathBuf>) {
+    let fil = folder.join("post.fil");
+    (folder.join("machine.toml"), Some(fil).filter(|fil| fil.is_file()))
+}
+
 /// Reads a whole file.
 ///
 /// # Errors

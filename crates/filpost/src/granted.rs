@@ -17,6 +17,16 @@ pub enum Clock {
     System,
 }
 
+impl Clock {
+    /// The clock that a text names: `system`, or a moment such as `2026-01-31T12:00:00`.
+    pub fn named(text: &str) -> Option<Clock> {
+        if text == "system" {
+            return Some(Clock::System);
+        }
+        Moment::parse(text).map(Clock::Fixed)
+    }
+}
+
 /// Runs the command of SPAWNF and gives its status.
 pub(crate) type Spawn = Box<dyn Fn(&str) -> Result<f64, String> + Send + Sync>;
 

@@ -36,6 +36,7 @@ mod editing;
 mod engine;
 mod error;
 mod event;
+pub mod explain;
 pub mod file_names;
 pub mod files;
 mod finding;

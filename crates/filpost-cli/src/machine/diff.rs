@@ -4,11 +4,11 @@ use std::path::Path;
 
 use filpost::commons::EMPTY;
 use filpost::locations::TABLE;
-use filpost::{Commons, Error, Kind, ready, user_blocks};
+use filpost::{Commons, Error, Kind, explain, ready, user_blocks};
 
 use super::{FORMAT, LETTERS, SPECIFICATION, address};
 use crate::args::Chosen;
-use crate::{Status, explain, output, setup, summary};
+use crate::{Status, output, setup, summary};
 
 /// Two blanks, as packed texts of option files have them.
 const BLANKS: f64 = 8224.0;

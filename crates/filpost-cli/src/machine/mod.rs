@@ -6,12 +6,12 @@ mod show;
 
 use std::path::Path;
 
-use filpost::{Commons, Error, Kind, Program, chain_drawing, files, settings};
+use filpost::{Commons, Error, Kind, Program, chain_drawing, explain, files, settings};
 use serde_json::Value;
 
 use crate::args::{MachineArgs, MachineCommand};
 use crate::output::{self, Target};
-use crate::{Status, explain, summary};
+use crate::{Status, summary};
 
 /// Letters of the address table.
 const LETTERS: std::ops::RangeInclusive<u8> = b'A'..=b'Z';

@@ -5,12 +5,12 @@ use std::path::Path;
 
 use filpost::effects::Rule;
 use filpost::locations::{LIMITS_CHECK, Location, TABLE, default_commons};
-use filpost::{Commons, Diag, Error, Kind, Levels, Program, ready, stored, user_blocks};
+use filpost::{Commons, Diag, Error, Kind, Levels, Program, explain, ready, stored, user_blocks};
 
 use super::{LETTERS, address, diff};
 use crate::args::Chosen;
 use crate::errors::CommandCode;
-use crate::{explain, output, setup, summary};
+use crate::{output, setup, summary};
 
 /// Shows every setting whose name starts with `prefix`; without one, what the machine
 /// sets otherwise than the default machine.

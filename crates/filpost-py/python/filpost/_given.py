@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import os
+import pathlib
 from typing import Any, BinaryIO, Callable, Iterable, TextIO, Union
 
 from . import _filpost
@@ -15,12 +16,19 @@ Source = Union[str, bytes, "os.PathLike[str]", BinaryIO, TextIO]
 Named = Union["tuple[str, str]", "os.PathLike[str]"]
 
 
+def cl_or_path(source: Source | None, path: str | os.PathLike[str] | None) -> Any:
+    """A CL file that is given in one of two ways."""
+    if (source is None) == (path is None):
+        raise TypeError("give the CL file, or its path")
+    return cl(source) if source is not None else pathlib.Path(path or "")
+
+
 def cl(source: Source) -> bytes | os.PathLike[str]:
     """A CL file as bytes or a name; an open file is read to its end."""
     if isinstance(source, os.PathLike):
         return source
     if isinstance(source, str):
-        return source.encode()
+        return _no_name(source).encode()
     if isinstance(source, (bytes, bytearray, memoryview)):
         return bytes(source)
     read = getattr(source, "read", None)
@@ -41,7 +49,7 @@ def nc(source: Any, name: str | None, encoding: str) -> tuple[bytes, str]:
     read = getattr(source, "read", None)
     taken = source if read is None else read()
     if isinstance(taken, str):
-        return _filpost.encode(taken, encoding), name or "NC"
+        return _filpost.encode(_no_name(taken), encoding), name or "NC"
     taken = cl(taken)
     assert isinstance(taken, bytes)
     return taken, name or "NC"
@@ -53,9 +61,16 @@ def named(source: Named | str, name: str) -> tuple[str, str]:
         with open(source, "rb") as file:
             return os.fspath(source), _text(file.read())
     if isinstance(source, str):
-        return name, source
+        return name, _no_name(source)
     given, text = source
     return str(given), text if isinstance(text, str) else _text(bytes(text))
+
+
+def _no_name(text: str) -> str:
+    """A text as it is; one that names a file is refused, since a name is no text of a file."""
+    if "\n" not in text and os.path.isfile(text):
+        raise ValueError(f"{text!r} is the name of a file; give pathlib.Path({text!r})")
+    return text
 
 
 def _text(given: bytes) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import os
 from dataclasses import dataclass
 from typing import Any, Callable, Iterable, Literal, Mapping
@@ -19,6 +20,7 @@ Unit = Literal["mm", "inch"]
 @dataclass(frozen=True)
 class _Parts:
     ready: str | None
+    folder: str | None
     machine: tuple[str, str] | None
     option_file: tuple[str, str] | None
     over: list[tuple[str, str]]
@@ -31,6 +33,7 @@ class _Parts:
     strict: bool
     allow: list[str]
     levels: list[tuple[str, str]]
+    clock: str | None
     read: str | None
     write: str | None
 
@@ -56,6 +59,9 @@ class Program:
         a ``machine.toml``: its text, ``(name, text)``, or a ``pathlib.Path``
     option_file
         an option file of G-POST (``UNCX01.Pnn``), given alike
+    folder
+        a folder with ``machine.toml`` and, where there is one, ``post.fil``, as
+        ``filpost new`` makes it; see ``from_folder``
 
     and the generic mill without any. On top of it come
 
@@ -80,6 +86,9 @@ class Program:
     cl_dialect, raw_records, units
         how CL files are read: the CAM system where it is not recognized, records as they
         are written, the unit (``mm`` or ``inch``) of files that do not say it
+    clock
+        what DATEF and TIMEF give: a ``datetime``, or ``"system"`` for the time of the run in
+        UTC; a script that asks for the time is refused without
     grant_read, grant_write
         folders that scripts may use; none without
 
@@ -90,6 +99,7 @@ class Program:
         self,
         *,
         ready: str | None = None,
+        folder: str | os.PathLike[str] | None = None,
         machine: Named | str | None = None,
         option_file: Named | None = None,
         over: Iterable[Named] = (),
@@ -105,13 +115,15 @@ class Program:
         cl_dialect: str | None = None,
         raw_records: bool = False,
         units: Unit | None = None,
+        clock: datetime.datetime | Literal["system"] | None = None,
         grant_read: str | os.PathLike[str] | None = None,
         grant_write: str | os.PathLike[str] | None = None,
     ) -> None:
-        if sum(given is not None for given in (ready, machine, option_file)) > 1:
-            raise ValueError("give one of ready, machine and option_file")
+        if sum(given is not None for given in (ready, folder, machine, option_file)) > 1:
+            raise ValueError("give one of ready, folder, machine and option_file")
         self._parts = _Parts(
             ready=ready,
+            folder=None if folder is None else os.fspath(folder),
             machine=None if machine is None else _given.named(machine, "machine.toml"),
             option_file=None if option_file is None else _given.named(option_file, "UNCX01.P01"),
             over=[_given.named(one, "machine.toml") for one in _files(over, "over")],
@@ -124,11 +136,20 @@ class Program:
             strict=strict,
             allow=_given.texts(allow, "allow"),
             levels=[(str(code), str(level)) for code, level in (levels or {}).items()],
+            clock=None if clock is None else _clock(clock),
             read=None if grant_read is None else os.fspath(grant_read),
             write=None if grant_write is None else os.fspath(grant_write),
         )
         self._reading = (cl_dialect, raw_records, units)
         self._post = Post(self._parts, *self._reading)
+
+    @classmethod
+    def from_folder(cls, folder: str | os.PathLike[str], **rest: Any) -> Program:
+        """The post in a folder: its ``machine.toml`` and, where there is one, ``post.fil``.
+
+        ``rest`` is what else ``Program`` takes.
+        """
+        return cls(folder=folder, **rest)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _rebuilt, (self._parts, self._reading)
@@ -144,14 +165,19 @@ class Program:
         return self._post.warnings
 
     def run(
-        self, cl: Source, *, name: str | None = None, cancel: Cancel | None = None
+        self,
+        cl: Source | None = None,
+        *,
+        path: str | os.PathLike[str] | None = None,
+        name: str | None = None,
+        cancel: Cancel | None = None,
     ) -> Result:
-        """Posts a CL file: its text, a ``pathlib.Path``, or an open file.
+        """Posts a CL file: its text, a ``pathlib.Path``, an open file, or the file at ``path``.
 
         ``name`` is what messages call it. ``cancel`` stops the run from another thread.
         Ctrl-C stops it too.
         """
-        nc, report = self._post.run(_given.cl(cl), _Run(name, cancel))
+        nc, report = self._post.run(_given.cl_or_path(cl, path), _Run(name, cancel))
         return Result(nc, report, self.encoding)
 
     def run_files(
@@ -168,7 +194,12 @@ class Program:
         return self._post.run_files(os.fspath(cl), os.fspath(nc), _Run(None, cancel))
 
     def blocks(
-        self, cl: Source, *, name: str | None = None, cancel: Cancel | None = None
+        self,
+        cl: Source | None = None,
+        *,
+        path: str | os.PathLike[str] | None = None,
+        name: str | None = None,
+        cancel: Cancel | None = None,
     ) -> Blocks:
         """The blocks of a CL file one by one, each with what made it and its words.
 
@@ -176,7 +207,7 @@ class Program:
         what came before it is no program then. The CL file is read once, so FIL that asks
         for totals of the program or goes back in the file is refused.
         """
-        return self._post.blocks(_given.cl(cl), _Run(name, cancel))
+        return self._post.blocks(_given.cl_or_path(cl, path), _Run(name, cancel))
 
     def verify(
         self,
@@ -254,6 +285,12 @@ def _files(given: Any, what: str) -> list[Any]:
     ):
         raise TypeError(f"{what}: a list of files is needed, each (name, text) or a pathlib.Path")
     return list(given)
+
+
+def _clock(given: datetime.datetime | str) -> str:
+    if isinstance(given, datetime.datetime):
+        return given.replace(microsecond=0, tzinfo=None).isoformat()
+    return given
 
 
 def _setting(value: Any) -> str:

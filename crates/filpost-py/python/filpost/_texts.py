@@ -16,13 +16,13 @@ def check(fil: Iterable[Named], *, strict: bool = False) -> tuple[Diagnostic, ..
     return _filpost.check([_given.named(one, "post.fil") for one in _files(fil, "fil")], strict)
 
 
-def explain(code: str) -> str:
-    """What a code means and what can be done.
+def explain(subject: str) -> str:
+    """What a code (``E0501``), a setting, a CL or FIL word, a function, a location
+    (``INTCOM 1861``), a G or M code or a ready post means, as ``filpost explain`` tells it.
 
-    Raises KeyError for a code that is none.
+    Raises KeyError where there is no help.
     """
-    title, reason, hint = _filpost.explain(code)
-    return f"{code.upper()}: {title}\n{reason}\n{hint}"
+    return _filpost.explain(subject)
 
 
 def diff(

@@ -1,60 +1,61 @@
-//! `filpost explain`
+//! What a code, a setting, a word, a function, a location, a G or M code or a ready post
+//! means: the texts of `filpost explain`.
 
 mod nc_function;
 mod plain;
 
-use filpost::builtins::BUILTINS;
-use filpost::cl::Vocabulary;
-use filpost::locations::{Location, TABLE};
-use filpost::postf::{Grade, POSTF, PostfInfo};
-use filpost::ready::{self, READY};
-use filpost::statements::STATEMENTS;
-use filpost::word_pages;
-use filpost::{Code, CodeKind, Commons, Error, Kind, dispatch, suggest};
+use fil_cl::Vocabulary;
+use fil_diag::{Code, CodeKind, suggest};
+use fil_machine::locations::{Location, TABLE};
+use fil_machine::{Commons, Kind, commons};
+use fil_post::dispatch;
+use fil_vm::builtins::BUILTINS;
+use fil_vm::postf::{Grade, POSTF, PostfInfo};
+use fil_vm::statements::STATEMENTS;
 
-use crate::errors::CommandCode;
-use crate::{Status, output};
+use crate::ready::{self, READY};
+use crate::word_pages;
 
-/// Explains a subject: the words of the command line after `explain`.
+/// What a subject means, `E0501`, `rapid.split`, `CYCLE`, `POSTF 13`, `INTCOM 1861`, `G83`,
+/// `haas-mill`, or part of a name; `None` for one that nothing is known of. `further` are codes
+/// besides those of [`crate::all_codes`].
 ///
-/// # Errors
-/// Standard output that can't be written.
-pub fn run(subject: &[String]) -> Result<Status, Error> {
-    let words: Vec<&str> = subject
-        .iter()
-        .flat_map(|word| word.split([' ', ',', '(', ')']))
-        .filter(|word| !word.is_empty())
-        .collect();
-    let text = match words[..] {
-        [word] => one(word),
+/// ```
+/// let text = filpost::explain::explain("G83", &[]).expect("a code of drilling");
+/// assert!(text.starts_with("G83\n"));
+/// ```
+pub fn explain(subject: &str, further: &[Code]) -> Option<String> {
+    let text = match words(subject)[..] {
+        [word] => one(word, further),
         [table, number] => numbered(table, number).or_else(|| function(table)),
         [name, number, ..] if name.eq_ignore_ascii_case("POSTF") => numbered(name, number),
         [name, ..] => function(name),
         [] => None,
     };
-    match text {
-        Some(text) => {
-            output::print(format!("{}\n", text.trim_end()).as_bytes())?;
-            Ok(Status::Done)
-        }
-        None => {
-            let subject = words.join(" ");
-            output::say(&format!("no help for `{subject}`"));
-            if let Some(near) = nearest(&subject) {
-                output::say(&format!("did you mean `{near}`?"));
-            }
-            output::say(
-                "Ask for a code (E0501), a setting (rapid.split), a CL or FIL word (CYCLE), a function \
-                 (POSTF 13), a location (INTCOM 1861), a G or M code (G83) or a ready post (haas-mill).",
-            );
-            Ok(Status::Usage)
-        }
-    }
+    text.map(|text| text.trim_end().to_string())
 }
 
-fn one(word: &str) -> Option<String> {
+/// The parts of a subject, such as `POSTF(13,2)` or `INTCOM 1861`.
+fn words(subject: &str) -> Vec<&str> {
+    subject.split([' ', ',', '(', ')']).filter(|word| !word.is_empty()).collect()
+}
+
+/// The known subject that is written most like this one.
+pub fn nearest(subject: &str) -> Option<String> {
+    let vocabulary = Vocabulary::new();
+    let mut names: Vec<String> = TABLE.iter().map(|row| row.name.to_string()).collect();
+    names.extend(STATEMENTS.iter().map(|row| row.word.to_string()));
+    names.extend(BUILTINS.iter().map(|row| row.name.to_string()));
+    names.extend(READY.iter().map(|post| post.name.to_string()));
+    names.extend(dispatch::HANDLERS.iter().map(|(id, _)| vocabulary.name(*id).to_string()));
+    names.extend(crate::all_codes().into_iter().map(Code::name));
+    let subject = words(subject).join(" ");
+    suggest::nearest(&subject, names.iter().map(String::as_str)).map(String::from)
+}
+
+fn one(word: &str, further: &[Code]) -> Option<String> {
     let mut parts: Vec<String> = Vec::new();
-    parts.extend(code(word));
+    parts.extend(code(word, further));
     parts.extend(Location::named(&word.to_ascii_lowercase()).map(location));
     parts.extend(statement(word));
     parts.extend(function(word));
@@ -120,11 +121,11 @@ fn unnamed(kind: Kind, number: u32) -> String {
     }
 }
 
-fn code(name: &str) -> Option<String> {
+fn code(name: &str, further: &[Code]) -> Option<String> {
     let digits = name.strip_prefix(['E', 'W', 'e', 'w']).unwrap_or(name);
     let number: u16 = digits.parse().ok().filter(|_| digits.len() >= 3)?;
-    let codes = filpost::all_codes();
-    let code = codes.into_iter().chain(CommandCode::ALL).find(|code| code.number == number)?;
+    let codes = crate::all_codes();
+    let code = codes.into_iter().chain(further).find(|code| code.number == number)?;
     Some(code_text(code))
 }
 
@@ -134,7 +135,7 @@ fn code_text(code: &Code) -> String {
         CodeKind::Error => "Error: nothing is written",
         CodeKind::Doubt => "Doubt: it can be done, and may not be what is meant",
     };
-    let level = filpost::level_line(code).map_or_else(String::new, |line| format!("\n{line}"));
+    let level = crate::level_line(code).map_or_else(String::new, |line| format!("\n{line}"));
     format!(
         "{}  {}\n\n{kind}.{level}\n{}\n\nWhat to do: {}",
         code.name(),
@@ -152,7 +153,7 @@ fn postf(row: &PostfInfo) -> String {
         arguments.concat(),
         sentence(row.doc),
         grade(row.grade),
-        filpost::operation_name(row.op)
+        crate::operation_name(row.op)
     )
 }
 
@@ -208,7 +209,7 @@ fn location(row: &Location) -> String {
 
 /// A value of a common as settings show it.
 pub fn value(number: f64) -> String {
-    if number == filpost::commons::EMPTY { "none".into() } else { number.to_string() }
+    if number == commons::EMPTY { "none".into() } else { number.to_string() }
 }
 
 fn vocabulary_word(name: &str) -> Option<String> {
@@ -273,24 +274,12 @@ fn sentence(doc: &str) -> String {
     format!("{}{}.", first.unwrap_or_default(), characters.as_str())
 }
 
-/// The known subject that is written most like this one.
-fn nearest(subject: &str) -> Option<String> {
-    let vocabulary = Vocabulary::new();
-    let mut names: Vec<String> = TABLE.iter().map(|row| row.name.to_string()).collect();
-    names.extend(STATEMENTS.iter().map(|row| row.word.to_string()));
-    names.extend(BUILTINS.iter().map(|row| row.name.to_string()));
-    names.extend(READY.iter().map(|post| post.name.to_string()));
-    names.extend(dispatch::HANDLERS.iter().map(|(id, _)| vocabulary.name(*id).to_string()));
-    names.extend(filpost::all_codes().into_iter().map(Code::name));
-    suggest::nearest(subject, names.iter().map(String::as_str)).map(String::from)
-}
-
 /// The value of a setting with the meaning of its choice.
 pub fn shown_value(row: &Location, commons: &Commons) -> String {
-    let number = commons.get(row.kind, u32::from(row.number)).unwrap_or(filpost::commons::EMPTY);
+    let number = commons.get(row.kind, u32::from(row.number)).unwrap_or(commons::EMPTY);
     let choice = row.choice_list().into_iter().find(|(choice, _)| *choice == number);
     match choice {
-        Some((_, meaning)) if number != filpost::commons::EMPTY => format!("{number} ({meaning})"),
+        Some((_, meaning)) if number != commons::EMPTY => format!("{number} ({meaning})"),
         _ => value(number),
     }
 }

@@ -1,9 +1,11 @@
 //! What a G or M code means, by the table of functions and the settings of the ready posts.
 
-use filpost::functions::{self, Dialect, FUNCTIONS, Function, Space};
-use filpost::locations::{CONTROL_FAMILY, ControlFamily, Location};
-use filpost::ready::READY;
-use filpost::{Commons, FunctionCode, Kind, Program};
+use fil_machine::functions::{self, Dialect, FUNCTIONS, Function, Space};
+use fil_machine::locations::{CONTROL_FAMILY, ControlFamily, Location};
+use fil_machine::{Commons, FunctionCode, Kind};
+
+use crate::Program;
+use crate::ready::READY;
 
 /// The controls whose standard numbers differ.
 const DIALECTS: [(Dialect, &str); 3] = [
