@@ -5,6 +5,7 @@ mod levels;
 mod machine;
 mod names;
 mod plot;
+mod studio;
 mod test;
 mod trace;
 
@@ -21,6 +22,7 @@ pub use learn::LearnArgs;
 pub use levels::LevelArgs;
 pub use machine::{MachineArgs, MachineCommand};
 pub use plot::{PlotArgs, Seen};
+pub use studio::StudioArgs;
 pub use test::{Shard, TestArgs};
 pub use trace::{AnswerFormat, TraceArgs};
 
@@ -70,6 +72,8 @@ pub enum Command {
     Dap,
     /// Make a folder with the start of your own post
     New(NewArgs),
+    /// Make, run and judge a post in one page of the browser
+    Studio(StudioArgs),
     /// Print the manual page of filpost or of a command
     Man {
         /// A command, such as post

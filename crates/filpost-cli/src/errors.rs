@@ -47,5 +47,9 @@ fil_diag::codes! {
         NoSetting = 811, Error, "no such setting",
             "No name of a setting begins with this text.",
             "`filpost machine show --all` lists every setting; `-m FILE` names the machine.";
+        /// `filpost studio` without its program.
+        NoStudio = 812, Error, "the studio is not installed",
+            "The studio is a program of its own, filpost-studio, which is neither beside this command nor in a folder of PATH.",
+            "Install it: `cargo install --locked --path crates/filpost-studio`.";
     }
 }

@@ -28,6 +28,7 @@ mod refused;
 mod render;
 mod sarif;
 mod setup;
+mod studio;
 mod summary;
 mod test;
 mod trace;
@@ -114,6 +115,7 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Lsp => Ok(served(filpost_lsp::serve_stdio())),
         Command::Dap => Ok(served(filpost_dap::serve_stdio())),
         Command::New(args) => new::run(args),
+        Command::Studio(args) => studio::run(args),
         Command::Man { command } => manual::run(command.as_deref()),
         Command::Completions { shell } => {
             let mut text = Vec::new();

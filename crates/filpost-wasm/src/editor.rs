@@ -1,6 +1,6 @@
 //! What an editor asks of a text: findings, hover, proposals.
 
-use fil_ide::{Finding, Item, Position, Range, Script, Text, cl_file, machine};
+use fil_ide::{Edit, Finding, Fix, Item, Position, Range, Script, Text, cl_file, machine};
 use filpost::{Commons, Included, settings};
 use serde_json::{Value, json};
 
@@ -69,6 +69,18 @@ impl Edited {
         }
     }
 
+    /// Repairs as `{title, code, line, preferred, edits}`: `line` is that of the finding, each edit has
+    /// `file`, `range` and `text`.
+    pub fn fixes(&self) -> Value {
+        let text = Text::new(&self.text);
+        let found = match self.language {
+            Language::Cl => Vec::new(),
+            Language::Machine => machine::fixes(&self.name, &text, text.whole()),
+            Language::Fil => self.with_script(|script| script.fixes(text.whole())),
+        };
+        found.iter().map(fix).collect()
+    }
+
     /// What stands at the place: Markdown and its range, or null.
     pub fn hover(&self) -> Value {
         let position = Position { line: self.line, character: self.character };
@@ -126,6 +138,17 @@ fn finding(found: &Finding) -> Value {
         "code": found.code.name(),
         "severity": found.severity.name(),
         "message": found.message,
+    })
+}
+
+fn fix(fix: &Fix) -> Value {
+    let edit = |edit: &Edit| json!({ "file": edit.place.file, "range": places(edit.place.range), "text": edit.text });
+    json!({
+        "title": fix.title,
+        "code": fix.finding.code.name(),
+        "line": fix.finding.range.start.line,
+        "preferred": fix.preferred,
+        "edits": fix.edits.iter().map(edit).collect::<Vec<_>>(),
     })
 }
 

@@ -26,6 +26,8 @@ mod machine;
 mod plot;
 #[cfg(feature = "post")]
 mod post;
+#[cfg(feature = "post")]
+mod setup;
 
 use filpost::{Diag, Error};
 use serde_json::{Value, json};
@@ -61,13 +63,19 @@ impl From<Misuse> for Fault {
 /// Answers a request, JSON for JSON. What is no request is answered by
 /// `{"misuse": "…"}`.
 pub fn answer(request: &[u8]) -> Vec<u8> {
-    let answer = read(request).unwrap_or_else(|Misuse(what)| json!({ "misuse": what }));
+    let answer = match serde_json::from_slice(request) {
+        Ok(request) => answer_to(request),
+        Err(error) => json!({ "misuse": error.to_string() }),
+    };
     answer.to_string().into_bytes()
 }
 
-fn read(request: &[u8]) -> Result<Value, Misuse> {
-    let request: Value =
-        serde_json::from_slice(request).map_err(|error| Misuse(error.to_string()))?;
+/// The same for values.
+pub fn answer_to(request: Value) -> Value {
+    read(request).unwrap_or_else(|Misuse(what)| json!({ "misuse": what }))
+}
+
+fn read(request: Value) -> Result<Value, Misuse> {
     let mut fields = Fields::of(request)?;
     let what = fields.needed("do")?;
     Ok(match what.as_str() {
@@ -81,6 +89,12 @@ fn read(request: &[u8]) -> Result<Value, Misuse> {
         "hover" => Edited::read(fields)?.hover(),
         #[cfg(feature = "post")]
         "complete" => Edited::read(fields)?.complete(),
+        #[cfg(feature = "post")]
+        "fixes" => Edited::read(fields)?.fixes(),
+        #[cfg(feature = "post")]
+        "new" => setup::new_post(fields)?,
+        #[cfg(feature = "post")]
+        "import" => setup::import(fields)?,
         #[cfg(feature = "post")]
         "ready" => ready(),
         #[cfg(feature = "post")]

@@ -46,6 +46,7 @@ pub mod listing;
 mod machine;
 pub mod map;
 mod memory;
+pub mod new_post;
 mod outside;
 mod overview;
 mod passes;

@@ -27,6 +27,7 @@ mod new;
 mod output;
 mod post;
 mod shards;
+mod studio;
 mod support;
 mod test;
 mod trace;

@@ -1,0 +1,23 @@
+//! Arguments of `filpost studio`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+/// Arguments of `filpost studio`.
+#[derive(Debug, Args)]
+#[command(
+    after_long_help = "The page answers on this computer alone, to whoever has its address, and has no other files than \
+    those of the folder. It ends with Ctrl-C, or when its page is closed."
+)]
+pub struct StudioArgs {
+    /// Folder of the post: machine.toml, post.fil, cases; it is made if it is not there
+    #[arg(default_value = ".")]
+    pub folder: PathBuf,
+    /// Port to listen on; 0 takes any that is free
+    #[arg(long, default_value_t = 0)]
+    pub port: u16,
+    /// Print the address and open no browser
+    #[arg(long)]
+    pub no_open: bool,
+}

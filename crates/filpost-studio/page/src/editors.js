@@ -1,0 +1,190 @@
+// The editors: their findings, hovers, proposals and marked lines.
+import { autocompletion } from "@codemirror/autocomplete";
+import { setDiagnostics } from "@codemirror/lint";
+import { Annotation, EditorState, StateEffect, StateField } from "@codemirror/state";
+import { Decoration, EditorView, hoverTooltip } from "@codemirror/view";
+import { basicSetup } from "codemirror";
+import { el } from "./dom.js";
+import { languageOf } from "./languages.js";
+
+const mark = StateEffect.define();
+
+/** A change that did not come from the editor's user. */
+const fromOutside = Annotation.define();
+
+/** Lines that are marked: those that belong to what is pointed at elsewhere. */
+const marked = StateField.define({
+  create: () => Decoration.none,
+  update(lines, transaction) {
+    lines = lines.map(transaction.changes);
+    for (const effect of transaction.effects) {
+      if (effect.is(mark)) {
+        const line = Decoration.line({ class: "marked" });
+        lines = Decoration.set(effect.value.map((at) => line.range(at)));
+      }
+    }
+    return lines;
+  },
+  provide: (field) => EditorView.decorations.from(field),
+});
+
+/** The position of a line, counted from 1, and of UTF-16 units in it. */
+function place(doc, line, units = 0) {
+  const at = doc.line(Math.min(Math.max(line, 1), doc.lines));
+  return Math.min(at.from + units, at.to);
+}
+
+/** Marks lines, counted from 1, and shows the first where `show` is true. */
+export function markLines(view, lines, show = true) {
+  const { doc } = view.state;
+  const starts = [...new Set(lines.filter((line) => line >= 1 && line <= doc.lines))];
+  starts.sort((a, b) => a - b);
+  const effects = [mark.of(starts.map((line) => place(doc, line)))];
+  if (show && starts.length) {
+    effects.push(EditorView.scrollIntoView(place(doc, starts[0]), { y: "center" }));
+  }
+  view.dispatch({ effects });
+}
+
+/** Puts the cursor to a place and shows it. */
+export function goTo(view, line, units = 0) {
+  const at = place(view.state.doc, line, units);
+  view.dispatch({ selection: { anchor: at }, effects: EditorView.scrollIntoView(at, { y: "center" }) });
+}
+
+/** Shows findings `{line, from, to, toLine, severity, message, code}`; lines count from 1. */
+export function showFindings(view, findings) {
+  const { doc } = view.state;
+  const found = findings.map(({ line, from, toLine, to, severity, message, code }) => {
+    let begin = place(doc, line, from);
+    const end = Math.max(begin, place(doc, toLine ?? line, to));
+    // The end of a line has no character that could be marked: the last one is.
+    if (begin === end) begin = Math.max(doc.lineAt(begin).from, begin - 1);
+    return { from: begin, to: end, severity, message: `${code}: ${message}` };
+  });
+  found.sort((a, b) => a.from - b.from);
+  view.dispatch(setDiagnostics(view.state, found));
+}
+
+/** Markdown of the hovers: paragraphs, fenced text and `words`; as elements, never as HTML. */
+export function markdown(text) {
+  const made = el("div", { class: "hover" });
+  text.split("```").forEach((part, index) => {
+    if (index % 2) {
+      made.append(el("pre", {}, part.replace(/^\w*\n/, "").trimEnd()));
+      return;
+    }
+    for (const paragraph of part.split(/\n\s*\n/).filter((piece) => piece.trim())) {
+      // Links lead to pages that are not here: their words stay.
+      const plain = paragraph.trim().replace(/\[([^\]]*)\]\([^)]*\)/g, "$1").replace(/^#+ /gm, "");
+      const pieces = plain.split("`");
+      made.append(el("p", {}, ...pieces.map((piece, at) => {
+        return el(at % 2 ? "code" : "span", {}, piece.replaceAll("**", ""));
+      })));
+    }
+  });
+  return made;
+}
+
+export function position(doc, at) {
+  const line = doc.lineAt(at);
+  return { line: line.number - 1, character: at - line.from };
+}
+
+const range = (doc, [line, from, toLine, to]) => ({
+  from: place(doc, line + 1, from),
+  to: place(doc, toLine + 1, to),
+});
+
+function hovers(ask, file) {
+  return hoverTooltip(async (view, at) => {
+    const { doc } = view.state;
+    const request = { do: "hover", ...file(doc.toString()), ...position(doc, at) };
+    const answer = await ask(request).catch(() => null);
+    if (!answer?.markdown) return null;
+    const { from, to } = range(doc, answer.range);
+    return { pos: from, end: to, create: () => ({ dom: markdown(answer.markdown) }) };
+  });
+}
+
+const KINDS = { keyword: "keyword", function: "function", macro: "function", setting: "property" };
+
+function proposals(ask, file) {
+  return async ({ state, pos, explicit }) => {
+    const before = state.doc.lineAt(pos);
+    const typed = state.doc.sliceString(before.from, pos);
+    if (!explicit && !/[A-Za-z_]\w+$/.test(typed)) return null;
+    const request = { do: "complete", ...file(state.doc.toString()), ...position(state.doc, pos) };
+    const items = await ask(request).catch(() => []);
+    if (!Array.isArray(items) || !items.length) return null;
+    const { from } = range(state.doc, items[0].range);
+    const options = items.map(({ label, detail, kind }) => {
+      return { label, info: detail, type: KINDS[kind] ?? "variable" };
+    });
+    return { from, options };
+  };
+}
+
+/** Tells the line of the cursor when it has moved. */
+function cursor(told) {
+  return EditorView.updateListener.of((update) => {
+    if (!update.selectionSet || update.docChanged) return;
+    const { doc, selection } = update.state;
+    // What is dispatched within an update waits until it is over.
+    queueMicrotask(() => told(doc.lineAt(selection.main.head).number, selection.main.head));
+  });
+}
+
+/**
+ * An editor of a text in `parent`. `file(text)` names it for requests of the language tools and is null for
+ * texts that have none; `changed` gets what its user makes of it, `pointed` the line of the cursor.
+ */
+export function editor(parent, { name, text, kind, readOnly, ask, file, changed, pointed }) {
+  const extensions = [
+    basicSetup,
+    languageOf(kind),
+    marked,
+    EditorView.contentAttributes.of({ "aria-label": name }),
+    EditorState.readOnly.of(Boolean(readOnly)),
+    EditorView.updateListener.of((update) => {
+      const outside = update.transactions.some((each) => each.annotation(fromOutside));
+      if (update.docChanged && !outside) changed(update.state.doc.toString());
+    }),
+    cursor(pointed),
+  ];
+  if (file) extensions.push(hovers(ask, file), autocompletion({ override: [proposals(ask, file)] }));
+  return new EditorView({ parent, state: EditorState.create({ doc: text, extensions }) });
+}
+
+/** A text that is read: `origin(line)` is told beside the pointer, `pointed` gets the line of the cursor. */
+export function reader(parent, { label, kind, origin, pointed }) {
+  const tips = hoverTooltip((view, at) => {
+    const line = view.state.doc.lineAt(at);
+    const text = origin?.(line.number);
+    if (!text) return null;
+    return { pos: line.from, end: line.to, create: () => ({ dom: markdown("```\n" + text + "```") }) };
+  });
+  const extensions = [
+    basicSetup,
+    languageOf(kind),
+    marked,
+    tips,
+    cursor(pointed),
+    EditorView.contentAttributes.of({ "aria-label": label }),
+    EditorState.readOnly.of(true),
+  ];
+  return new EditorView({ parent, state: EditorState.create({ extensions }) });
+}
+
+/** Gives an editor another text; only what differs is changed, so that the cursor stays. */
+export function setText(view, text) {
+  const old = view.state.doc.toString();
+  if (old === text) return;
+  let from = 0;
+  const shorter = Math.min(old.length, text.length);
+  while (from < shorter && old[from] === text[from]) from += 1;
+  let end = 0;
+  while (end < shorter - from && old[old.length - 1 - end] === text[text.length - 1 - end]) end += 1;
+  const changes = { from, to: old.length - end, insert: text.slice(from, text.length - end) };
+  view.dispatch({ changes, annotations: fromOutside.of(true) });
+}

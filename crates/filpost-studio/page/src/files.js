@@ -1,0 +1,138 @@
+// The files of the post: what is on the disk (or in memory), and what has been edited.
+import { signal } from "./dom.js";
+
+/** Endings of CL files. */
+const CL = /\.(ncl|cl|cls|apt|aptsource|clf|cldata)(\.\d+)?$/i;
+
+export const isCl = (name) => CL.test(name);
+export const isFil = (name) => /\.(fil|inc|f\d\d)$/i.test(name);
+export const isMachine = (name) => /(^|\/)[^/]*machine[^/]*\.toml$/i.test(name);
+export const isNc = (name) => /\.(nc|tap|h|mpf|spf|eia|cnc|min|ptp)$/i.test(name);
+
+/** What kind of text a file is, as the editor colours and judges it. */
+export function kindOf(name) {
+  if (isCl(name)) return "cl";
+  if (isFil(name)) return "fil";
+  if (isMachine(name)) return "machine";
+  if (isNc(name)) return "nc";
+  if (name.endsWith(".toml")) return "toml";
+  return "text";
+}
+
+/** Texts with `\n` at the ends of their lines, as editors have them. */
+const plainEnds = (text) => text.replaceAll("\r\n", "\n");
+
+export class Files {
+  constructor(backend) {
+    this.backend = backend;
+    this.folder = "";
+    /** By name: `{name, size, stamp, encoding, text, saved, crlf}`; `text` is null until it is read. */
+    this.all = new Map();
+    /** A file came, went, or was renamed. */
+    this.listed = signal();
+    /** The text of a file is another one: its name, and who changed it. */
+    this.changed = signal();
+  }
+
+  /** Reads the list of the files, and the texts of the post itself. */
+  async load() {
+    const { folder, files, all } = await this.backend.list();
+    this.folder = folder;
+    this.isWhole = all;
+    this.all.clear();
+    for (const file of files) this.all.set(file.name, { ...file, text: null, saved: null });
+    const own = files.filter(({ name }) => !name.includes("/") && (isFil(name) || name === "machine.toml"));
+    await Promise.all(own.map(({ name }) => this.read(name)));
+    this.listed.tell();
+  }
+
+  names() {
+    return [...this.all.keys()].sort((a, b) => a.localeCompare(b, "en"));
+  }
+
+  has(name) {
+    return this.all.has(name);
+  }
+
+  /** The text of a file that was read; null for any other. */
+  text(name) {
+    return this.all.get(name)?.text ?? null;
+  }
+
+  /** Reads a file, once. */
+  async read(name) {
+    const file = this.all.get(name);
+    if (!file) throw new Error(`there is no ${name}`);
+    if (file.text === null) {
+      const { text, encoding, stamp } = await this.backend.read(name);
+      file.crlf = text.includes("\r\n");
+      file.text = file.saved = plainEnds(text);
+      Object.assign(file, { encoding, stamp });
+    }
+    return file.text;
+  }
+
+  /** Changes a text; `by` is whoever does, so that it need not take the change itself. */
+  set(name, text, by = null) {
+    const file = this.all.get(name);
+    const isNew = !file;
+    if (isNew) this.all.set(name, { name, size: 0, stamp: null, text: null, saved: null, crlf: text.includes("\r\n") });
+    const known = this.all.get(name);
+    const plain = plainEnds(text);
+    if (known.text === plain) return;
+    known.text = plain;
+    if (isNew) this.listed.tell();
+    this.changed.tell(name, by);
+  }
+
+  isDirty(name) {
+    const file = this.all.get(name);
+    return file !== undefined && file.text !== null && file.text !== file.saved;
+  }
+
+  dirty() {
+    return this.names().filter((name) => this.isDirty(name));
+  }
+
+  /** Saves a file. */
+  async save(name) {
+    const file = this.all.get(name);
+    const { text } = file;
+    const written = file.crlf ? text.replaceAll("\n", "\r\n") : text;
+    const answer = await this.backend.write(name, written, file);
+    if (answer.changed) {
+      throw new Error(`${name} was changed by another program since it was read. Reload the page to see it.`);
+    }
+    file.saved = text;
+    file.stamp = answer.stamp;
+    this.changed.tell(name, "save");
+  }
+
+  async saveAll() {
+    for (const name of this.dirty()) await this.save(name);
+  }
+
+  /** Takes a file away, on the disk too. */
+  async remove(name) {
+    const file = this.all.get(name);
+    if (file.stamp) {
+      const answer = await this.backend.remove(name, file.stamp);
+      if (answer.changed) throw new Error(`${name} was changed by another program`);
+    }
+    this.all.delete(name);
+    this.listed.tell();
+  }
+}
+
+/** A name that is said from a folder, as the name from the top: `cases/a` and `../../machine.toml`. */
+export function joined(folder, name) {
+  const parts = folder ? folder.split("/") : [];
+  for (const part of name.replaceAll("\\", "/").split("/")) {
+    if (part === "..") parts.pop();
+    else if (part !== "." && part !== "") parts.push(part);
+  }
+  return parts.join("/");
+}
+
+export const folderOf = (name) => name.split("/").slice(0, -1).join("/");
+export const baseOf = (name) => name.split("/").at(-1);

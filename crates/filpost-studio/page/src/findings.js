@@ -1,0 +1,108 @@
+// All that is wrong or doubtful: of posting, of the texts, of the check against the CL file.
+import { debounced, signal } from "./dom.js";
+import { kindOf } from "./files.js";
+import { MACHINE } from "./posting.js";
+
+const ORDER = { error: 0, warning: 1, advice: 2, info: 2, note: 3 };
+
+export class Findings {
+  constructor(files, posting, ask) {
+    this.files = files;
+    this.posting = posting;
+    this.ask = ask;
+    this.posted = [];
+    this.ofTexts = [];
+    this.checked = [];
+    this.changed = signal();
+    const later = debounced(300, () => this.judge());
+    files.changed.on((name, by) => by !== "save" && kindOf(name) !== "text" && later());
+    files.listed.on(later);
+    posting.done.on(() => {
+      this.posted = postedFindings(posting.answer);
+      this.checked = [];
+      this.changed.tell();
+    });
+  }
+
+  /** Asks what is wrong in the machine and in the scripts, and how it is repaired. */
+  async judge() {
+    const { fil, includes } = this.posting.scripts();
+    const machine = this.posting.machine();
+    const texts = fil.map(({ name, text }) => ({ language: "fil", name, text, machine: machine?.text, includes }));
+    if (machine) texts.push({ language: "machine", ...machine });
+    const answers = texts.map((file) => this.judgeText(file).catch(() => []));
+    this.ofTexts = (await Promise.all(answers)).flat();
+    this.changed.tell();
+  }
+
+  async judgeText(file) {
+    const [found, fixes] = await Promise.all([
+      this.ask({ do: "findings", ...file }),
+      this.ask({ do: "fixes", ...file }),
+    ]);
+    return found.map(({ range: [line, from, toLine, to], code, severity, message }) => {
+      const [said, ...hint] = message.split("\n");
+      const mine = fixes.filter((fix) => fix.code === code && fix.line === line);
+      return {
+        source: "text", file: file.name, line: line + 1, from, toLine: toLine + 1, to,
+        code, severity, message: said, hint: hint.join(" "), fixes: mine,
+      };
+    });
+  }
+
+  /** What `verify` found, for the program that is shown. */
+  setChecked(findings) {
+    this.checked = findings;
+    this.changed.tell();
+  }
+
+  /** All findings, errors first, each place and code once. */
+  all() {
+    const seen = new Set();
+    const once = (finding) => {
+      const key = `${finding.code} ${finding.file} ${finding.line} ${finding.code ? "" : finding.message}`;
+      return !seen.has(key) && seen.add(key);
+    };
+    // Those of the texts come first, as they bring repairs.
+    const all = [...this.ofTexts, ...this.posted, ...this.checked].filter(once);
+    return all.sort((a, b) => (ORDER[a.severity] ?? 2) - (ORDER[b.severity] ?? 2));
+  }
+
+  /** Does a repair. */
+  repair(fix) {
+    for (const { file, range: [line, from, toLine, to], text } of fix.edits) {
+      const old = this.files.text(file);
+      if (old === null) continue;
+      const start = offset(old, line, from);
+      this.files.set(file, old.slice(0, start) + text + old.slice(offset(old, toLine, to)));
+    }
+  }
+}
+
+/** Where a line, counted from 0, and UTF-16 units in it are in a text. */
+function offset(text, line, units) {
+  let at = 0;
+  for (let passed = 0; passed < line; passed++) {
+    const next = text.indexOf("\n", at);
+    if (next < 0) return text.length;
+    at = next + 1;
+  }
+  return Math.min(at + units, text.length);
+}
+
+function postedFindings(answer) {
+  if (!answer) return [];
+  if (answer.failure || answer.misuse) {
+    return [{ source: "post", severity: "error", code: "", message: answer.failure ?? answer.misuse, hint: "", fixes: [] }];
+  }
+  return [...(answer.errors ?? []), ...(answer.warnings ?? [])].map((diag) => {
+    const [place] = diag.places;
+    return {
+      source: "post", file: place?.file, line: place?.line, from: place?.from, to: place?.to,
+      code: diag.code, severity: diag.severity, message: diag.message, hint: diag.hint,
+      notes: diag.notes, places: diag.places, fixes: [],
+    };
+  });
+}
+
+export { MACHINE };

@@ -1,0 +1,171 @@
+// The open files, each in a tab with an editor of its own.
+import { by, debounced, el, signal } from "../dom.js";
+import { editor, goTo, markdown, markLines, position, setText, showFindings } from "../editors.js";
+import { baseOf, isCl, isFil, kindOf } from "../files.js";
+import { MACHINE } from "../posting.js";
+
+const LANGUAGES = { cl: "cl", fil: "fil", machine: "machine" };
+
+export class Editing {
+  constructor(files, posting, ask) {
+    this.files = files;
+    this.posting = posting;
+    this.ask = ask;
+    /** By name: `{name, tab, box, view}`. */
+    this.open = new Map();
+    this.current = null;
+    /** The cursor is in a line: file and line. */
+    this.pointed = signal();
+    this.chosen = signal();
+    this.tellWord = debounced(120, (name, at) => this.showWord(name, at));
+    by("open-tabs").addEventListener("keydown", (event) => this.key(event));
+    files.changed.on((name, who) => this.follow(name, who));
+    files.listed.on(() => {
+      for (const name of this.open.keys()) if (!files.has(name) && this.open.get(name).view) this.close(name);
+    });
+  }
+
+  /** A pane that is no file, such as the form of the machine. */
+  addPane(id, title, box) {
+    this.add(id, title, box, null, false);
+  }
+
+  add(name, title, box, view, closes) {
+    const number = this.open.size + Math.random().toString(36).slice(2);
+    box.id = `editor-${number}`;
+    const tab = el("button", {
+      type: "button", role: "tab", id: `open-${number}`, title: name, tabIndex: -1,
+      "aria-controls": box.id, onclick: () => this.show(name),
+    }, title);
+    box.setAttribute("role", "tabpanel");
+    box.setAttribute("aria-labelledby", tab.id);
+    box.hidden = true;
+    const holder = el("span", { class: "tab", role: "presentation" }, tab);
+    if (closes) {
+      holder.append(el("button", {
+        type: "button", class: "close", "aria-label": `Close ${title}`, title: "Close", tabIndex: -1,
+        onclick: () => this.close(name),
+      }, "×"));
+    }
+    by("open-tabs").append(holder);
+    by("editors").append(box);
+    this.open.set(name, { name, tab, holder, box, view });
+  }
+
+  /** Opens a file, or shows it where it is open, at a line where one is given. */
+  async show(name, line = null, units = 0) {
+    if (!this.open.has(name)) {
+      const text = await this.files.read(name);
+      if (!this.open.has(name)) this.addFile(name, text);
+    }
+    for (const file of this.open.values()) {
+      const is = file.name === name;
+      file.box.hidden = !is;
+      file.tab.setAttribute("aria-selected", String(is));
+      file.tab.tabIndex = is ? 0 : -1;
+    }
+    this.current = name;
+    const { view, tab } = this.open.get(name);
+    tab.scrollIntoView({ block: "nearest", inline: "nearest" });
+    by("word").hidden = !view;
+    if (view) {
+      // An editor that was hidden does not know its size.
+      view.requestMeasure();
+      if (line !== null) {
+        goTo(view, line, units);
+        view.focus();
+      }
+      this.tellWord(name, view.state.selection.main.head);
+    }
+    this.chosen.tell(name);
+  }
+
+  addFile(name, text) {
+    const kind = kindOf(name);
+    const language = LANGUAGES[kind];
+    const box = el("div", { class: "editor" });
+    const asked = language && ((edited) => this.asked(language, name, edited));
+    const view = editor(box, {
+      name, text, kind, ask: this.ask, file: asked,
+      changed: (edited) => this.files.set(name, edited, view),
+      pointed: (line, at) => {
+        this.pointed.tell(name, line);
+        this.tellWord(name, at);
+      },
+    });
+    this.add(name, baseOf(name), box, view, true);
+    this.label(name);
+  }
+
+  /** A text as requests of the language tools name it. */
+  asked(language, name, text) {
+    if (language !== "fil") return { language, name, text };
+    const { fil, includes } = this.posting.scripts();
+    const others = [...fil, ...includes].filter((file) => file.name !== name);
+    return { language, name, text, machine: this.files.text(MACHINE) ?? undefined, includes: others };
+  }
+
+  close(name) {
+    const file = this.open.get(name);
+    file.view?.destroy();
+    file.box.remove();
+    file.holder.remove();
+    this.open.delete(name);
+    if (this.current === name) {
+      const last = [...this.open.keys()].at(-1);
+      if (last) this.show(last);
+    }
+  }
+
+  follow(name, who) {
+    const file = this.open.get(name);
+    if (!file?.view) return;
+    if (who !== file.view && who !== "save") setText(file.view, this.files.text(name));
+    this.label(name);
+  }
+
+  label(name) {
+    const { tab } = this.open.get(name);
+    tab.textContent = baseOf(name);
+    tab.classList.toggle("dirty", this.files.isDirty(name));
+  }
+
+  /** Marks findings in the editors that are open. */
+  showFindings(findings) {
+    for (const { name, view } of this.open.values()) {
+      if (view) showFindings(view, findings.filter(({ file, line }) => file === name && line));
+    }
+  }
+
+  /** Marks lines of files: `[name, line]` of each. */
+  mark(places) {
+    for (const { name, view } of this.open.values()) {
+      if (view) markLines(view, places.filter(([file]) => file === name).map(([, line]) => line));
+    }
+  }
+
+  /** Tells what stands at the cursor: the record with its word numbers, or the FIL word. */
+  async showWord(name, at) {
+    const { view } = this.open.get(name) ?? {};
+    const language = LANGUAGES[kindOf(name)];
+    const box = by("word");
+    if (!view || name !== this.current) return;
+    if (!language || !(isCl(name) || isFil(name) || name === MACHINE)) {
+      box.replaceChildren();
+      return;
+    }
+    const { doc } = view.state;
+    const request = { do: "hover", ...this.asked(language, name, doc.toString()), ...position(doc, Math.min(at, doc.length)) };
+    const answer = doc.length < 4_000_000 ? await this.ask(request).catch(() => null) : null;
+    if (name !== this.current) return;
+    box.replaceChildren(answer?.markdown ? markdown(answer.markdown) : "");
+  }
+
+  key(event) {
+    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!step) return;
+    const names = [...this.open.keys()];
+    const next = names[(names.indexOf(this.current) + step + names.length) % names.length];
+    this.show(next).then(() => this.open.get(next).tab.focus());
+  }
+}

@@ -1,0 +1,120 @@
+// Posts the part anew after each change, and keeps the answer.
+import { debounced, signal } from "./dom.js";
+import { isFil } from "./files.js";
+
+/** Longest CL text that is posted while somebody types, characters. */
+const LARGE = 8_000_000;
+
+/** Pause after the last key, milliseconds. */
+const PAUSE = 180;
+
+export const MACHINE = "machine.toml";
+
+export class Posting {
+  constructor(files, ask) {
+    this.files = files;
+    this.ask = ask;
+    /** Name of the CL file. */
+    this.part = null;
+    this.answer = null;
+    this.lines = [];
+    this.isRunning = false;
+    this.asked = 0;
+    this.done = signal();
+    this.later = debounced(PAUSE, () => this.run());
+    files.changed.on((name, by) => {
+      if (by !== "save" && this.reads(name)) this.isLarge() ? this.done.tell() : this.later();
+    });
+  }
+
+  /** True when the program depends on a file. */
+  reads(name) {
+    return name === MACHINE || name === this.part || (isFil(name) && !name.startsWith("cases/"));
+  }
+
+  isLarge() {
+    return (this.files.text(this.part)?.length ?? 0) > LARGE;
+  }
+
+  choose(part) {
+    this.part = part;
+    return this.run();
+  }
+
+  /** The FIL files of the post: post.fil, or all in the folder itself; and what they may include. */
+  scripts() {
+    const known = this.files.names().filter((name) => isFil(name) && this.files.text(name) !== null);
+    const own = known.filter((name) => !name.includes("/") && /\.(fil|f\d\d)$/i.test(name));
+    const fil = own.includes("post.fil") ? ["post.fil"] : own;
+    const file = (name) => ({ name, text: this.files.text(name) });
+    const includes = known.filter((name) => !fil.includes(name) && !name.startsWith("cases/"));
+    return { fil: fil.map(file), includes: includes.map(file) };
+  }
+
+  /** The machine as a request names it; null where the folder has none. */
+  machine() {
+    const text = this.files.text(MACHINE);
+    return text === null ? null : { name: MACHINE, text };
+  }
+
+  request() {
+    const machine = this.machine();
+    const cl = this.part && this.files.text(this.part);
+    if (!machine || cl === null || cl === undefined) return null;
+    return { do: "post", machine, cl, cl_name: this.part, ...this.scripts() };
+  }
+
+  async run() {
+    if (this.part && this.files.has(this.part)) await this.files.read(this.part);
+    const request = this.request();
+    const number = ++this.asked;
+    if (!request) return this.take(null, 0);
+    this.isRunning = true;
+    const begun = performance.now();
+    let answer;
+    try {
+      answer = await this.ask(request);
+    } catch (error) {
+      answer = { failure: error.message };
+    }
+    // A later run has been asked for: its answer is the one that counts.
+    if (number === this.asked) this.take(answer, performance.now() - begun);
+  }
+
+  take(answer, time) {
+    this.isRunning = false;
+    this.answer = answer;
+    this.time = time;
+    const nc = answer?.nc ?? "";
+    this.lines = nc.replaceAll("\r\n", "\n").split("\n");
+    this.made = null;
+    this.done.tell();
+  }
+
+  /** What made a line of the program: `{cl, record, fil: [[file, line]]}`; null for none. */
+  origin(line) {
+    const found = this.answer?.origins?.[line - 1];
+    return found ? { cl: found[0], record: found[1], fil: found[2] } : null;
+  }
+
+  /** The lines of the program that a line of a file made. */
+  madeBy(name, line) {
+    if (!this.answer?.origins) return [];
+    this.made ??= this.index();
+    return this.made.get(`${name}:${line}`) ?? [];
+  }
+
+  index() {
+    const made = new Map();
+    const add = (key, line) => {
+      const lines = made.get(key);
+      if (!lines) made.set(key, [line]);
+      else if (lines.at(-1) !== line) lines.push(line);
+    };
+    this.answer.origins.forEach(([cl, , fil], at) => {
+      add(`${this.part}:${cl}`, at + 1);
+      for (const [file, line] of fil) add(`${file}:${line}`, at + 1);
+    });
+    return made;
+  }
+}
