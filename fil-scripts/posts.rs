@@ -37,6 +37,7 @@ ready![
     "grbl",
     "haas-lathe",
     "haas-mill",
+    "haas-mill-a",
     "haas-trunnion",
     "haas-trunnion-tcpc",
     "heidenhain-5x",
@@ -51,9 +52,11 @@ ready![
     "okuma-lathe",
     "okuma-mill",
     "sinumerik-5x",
+    "sinumerik-828d",
     "sinumerik-840d",
     "sinumerik-lathe",
     "sinumerik-mill-turn",
+    "tormach-mill",
 ];
 
 impl ReadyPost {

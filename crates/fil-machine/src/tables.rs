@@ -60,8 +60,11 @@ pub struct MachineTables {
     /// says.
     pub follows_edits: bool,
     /// A motion asks something of the machine before it is made: a tilted frame, the mode of a
-    /// mill-turn machine that mills, or where a macro has turned it.
+    /// mill-turn machine that mills, where a macro has turned it, a turn at the top, or a surface
+    /// speed that begins behind the approach.
     pub prepares: bool,
+    /// Rapid motions turn the rotary axes at the level of RETRCT.
+    pub turns_at_top: bool,
     /// Positions of a rotary axis count within one turn.
     pub within_a_turn: bool,
     /// The rotary axes are clamped in tilted frames.
@@ -153,7 +156,16 @@ impl MachineTables {
         self.most_departure =
             commons.dbl_opt(loc::LIMITS_MAX_DEPARTURE).filter(|most| *most != NO_DEPARTURE);
         self.follows_edits = self.chain.has_rotary() && commons.read(loc::TAPE_EDIT_MACRO);
-        self.prepares = self.frame_output || self.tip_output || self.mills() || self.follows_edits;
+        self.turns_at_top = self.chain.has_rotary()
+            && self.mill_turn.is_none()
+            && commons.read(loc::ROTARY_TURN_RETRACT)
+            && commons.dbl_opt(loc::HOME_RETRACT_Z).is_some();
+        self.prepares = self.frame_output
+            || self.tip_output
+            || self.mills()
+            || self.follows_edits
+            || self.turns_at_top
+            || commons.read(loc::SPINDLE_CSS_LEAD_IN);
         if !has_rotary {
             self.input_shift += self.chain.tool.into_inner() * along;
         }

@@ -101,8 +101,8 @@ fn carry_out(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resul
     if record.inert {
         return note(post, record, vocabulary);
     }
-    if !post.control.tools.messages.is_empty() && !takes_messages(record.major) {
-        way_home::write_messages(&mut post.control)?;
+    if !post.control.tools.held.is_empty() && !takes_messages(record.major) {
+        way_home::write_held(&mut post.control)?;
     }
     match dispatch::of(record.major) {
         Some(Handler::Point(handle)) => {
@@ -137,9 +137,11 @@ fn carry_out(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resul
     }
 }
 
-/// A message waits for what comes behind these words: for a tool change that stops before it.
+/// A message or stop waits for what comes behind these words: for a tool change that stops before it.
 fn takes_messages(word: WordId) -> bool {
-    matches!(word, w::PPRINT | w::TPRINT | w::CUTTER | w::LOADTL | w::LOAD | w::TURRET)
+    const BEFORE_A_CHANGE: [WordId; 8] =
+        [w::PPRINT, w::TPRINT, w::CUTTER, w::LOADTL, w::LOAD, w::TURRET, w::OPSTOP, w::STOP];
+    BEFORE_A_CHANGE.contains(&word)
 }
 
 /// What a word without effect says all the same: the name of a tool, the frame of the points.

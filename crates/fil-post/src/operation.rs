@@ -302,6 +302,8 @@ pub struct ToolChange {
     pub offset_given: bool,
     /// The tool changes behind this one.
     pub next: NextTools,
+    /// The rev/min that SPINDL asks for behind it, where it is known.
+    pub speed: Option<f64>,
     /// The record at the word of the tool, and at that of the offset.
     pub causes: [Cause; 2],
 }

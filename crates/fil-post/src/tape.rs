@@ -310,9 +310,11 @@ impl Tape {
     ) -> Result<()> {
         let rules = &tables.numbering;
         let on = self.sequence.switched.unwrap_or(rules.on);
-        let Some(slot) = rules.slot.as_ref().filter(|_| on) else { return Ok(()) };
-        self.sequence.since_last += 1;
         let align = rules.align.filter(|_| std::mem::take(&mut self.sequence.aligns));
+        let Some(slot) = rules.slot.as_ref().filter(|_| on || align.is_some()) else {
+            return Ok(());
+        };
+        self.sequence.since_last += 1;
         let is_due = self.sequence.since_last >= rules.every || self.sequence.next.is_none();
         if !is_due && align.is_none() {
             return Ok(());

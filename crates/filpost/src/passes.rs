@@ -27,6 +27,8 @@ pub(crate) enum Pass {
         /// The script was told a number that is not the right one.
         guessed: bool,
     },
+    /// The program is written, of which only its list of tools was asked, and no script changes it.
+    Listed(Vec<String>),
     /// The program is written.
     Second {
         /// What the first pass has found.
@@ -44,12 +46,20 @@ const GUESS: f64 = 1.0;
 
 impl Pass {
     /// The pass that writes the program.
-    pub fn writing(first: Option<FirstPass>) -> Pass {
-        first.map_or(Pass::Only, |first| Pass::Second {
-            first: Box::new(first),
-            counted: Box::default(),
-            told: false,
-        })
+    pub fn writing(first: Option<FirstPass>, has_script: bool) -> Pass {
+        match first {
+            None => Pass::Only,
+            // Both passes do the same: there is nothing to count again.
+            Some(first) if !has_script => Pass::Listed(first.overview.tool_list()),
+            Some(first) => {
+                Pass::Second { first: Box::new(first), counted: Box::default(), told: false }
+            }
+        }
+    }
+
+    /// True for a pass that counts what the program does.
+    pub fn counts(&self) -> bool {
+        matches!(self, Pass::First { .. } | Pass::Second { .. })
     }
 
     /// The tools that the first pass has found, a line each; `None` where there was none.
@@ -57,6 +67,7 @@ impl Pass {
         match self {
             Pass::Only => None,
             Pass::First { .. } => Some(Vec::new()),
+            Pass::Listed(tools) => Some(std::mem::take(tools)),
             Pass::Second { first, told, .. } => {
                 *told = true;
                 Some(first.overview.tool_list())
@@ -68,7 +79,7 @@ impl Pass {
     #[inline]
     pub fn counted(&mut self) -> Option<&mut Overview> {
         match self {
-            Pass::Only => None,
+            Pass::Only | Pass::Listed(_) => None,
             Pass::First { counted, .. } | Pass::Second { counted, .. } => Some(counted),
         }
     }
@@ -97,7 +108,7 @@ impl Pass {
         find: impl FnOnce(&Overview) -> Result<T, String>,
     ) -> Result<T, Box<Diag>> {
         match self {
-            Pass::Only => {
+            Pass::Only | Pass::Listed(_) => {
                 let message = "the script asks for numbers of the whole program, which need a \
                                first pass over the CL file";
                 ClCode::NotSeekable.err(message)

@@ -387,7 +387,10 @@ impl<'o> Run<'o> {
         map: Option<map::Writer<'o>>,
         nc: &mut dyn Write,
     ) -> Done<'o> {
-        self.drive(Stream::Cl(Box::new(reader)), Pass::writing(first), map, nc)
+        let module = &self.program.shared.module;
+        let has_script = module.asks_totals() || module.edits_output() || !module.has_no_section();
+        let pass = Pass::writing(first, has_script);
+        self.drive(Stream::Cl(Box::new(reader)), pass, map, nc)
     }
 
     fn post_memory(self, memory: Memory<'_>, nc: &mut dyn Write) -> Result<Report, Error> {

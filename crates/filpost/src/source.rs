@@ -264,7 +264,8 @@ impl<'r> Source<'r> {
         self.tool.corner
     }
 
-    /// The tool changes behind the current record, which takes a tool; nothing is consumed.
+    /// The tool changes behind the current record, which takes a tool, and the rev/min that the next
+    /// SPINDL asks for before a motion; nothing is consumed.
     /// Records that can't go back are kept, up to [`TOOLS_AHEAD`] of them. What is wrong with
     /// a record is said when it is read.
     ///
@@ -274,12 +275,12 @@ impl<'r> Source<'r> {
         &mut self,
         record: &Record,
         vocabulary: &mut Vocabulary,
-    ) -> Result<NextTools> {
-        let mut seen = ToolsSeen { tool: tool_of(record), any: false };
+    ) -> Result<(NextTools, Option<f64>)> {
+        let mut seen = ToolsSeen { tool: tool_of(record), any: false, speed: SpeedSeen::Open };
         let mut at = 0;
         while let Some(ahead) = self.ahead.get(at) {
             if let Some(found) = seen.take(ahead) {
-                return Ok(found);
+                return Ok((found, seen.speed.known()));
             }
             at += 1;
         }
@@ -288,17 +289,17 @@ impl<'r> Source<'r> {
         }
         while at < TOOLS_AHEAD {
             match self.ahead(at, vocabulary) {
-                Ok(None) => return Ok(seen.at_the_end()),
+                Ok(None) => return Ok((seen.at_the_end(), seen.speed.known())),
                 Ok(Some(ahead)) => {
                     if let Some(found) = seen.take(ahead) {
-                        return Ok(found);
+                        return Ok((found, seen.speed.known()));
                     }
                 }
                 Err(_) => break,
             }
             at += 1;
         }
-        Ok(NextTools::Unknown)
+        Ok((NextTools::Unknown, seen.speed.known()))
     }
 
     /// Reads on and goes back.
@@ -306,7 +307,7 @@ impl<'r> Source<'r> {
         &mut self,
         mut seen: ToolsSeen,
         vocabulary: &mut Vocabulary,
-    ) -> Result<NextTools> {
+    ) -> Result<(NextTools, Option<f64>)> {
         let mut record = Record::default();
         let mut first = None;
         let found = loop {
@@ -323,7 +324,7 @@ impl<'r> Source<'r> {
         if let Some(first) = first {
             self.reader.seek(first)?;
         }
-        Ok(found)
+        Ok((found, seen.speed.known()))
     }
 
     /// The motion before the current record.
@@ -361,6 +362,38 @@ struct ToolsSeen {
     tool: Option<i64>,
     /// Some change was seen.
     any: bool,
+    /// The speed of the spindle behind the change.
+    speed: SpeedSeen,
+}
+
+/// What was seen of the speed of the spindle.
+#[derive(Clone, Copy)]
+enum SpeedSeen {
+    /// Nothing yet.
+    Open,
+    /// SPINDL with a speed, rev/min.
+    Known(f64),
+    /// Another SPINDL, or a motion, came first.
+    Closed,
+}
+
+impl SpeedSeen {
+    fn take(self, record: &Record) -> SpeedSeen {
+        match self {
+            SpeedSeen::Open if record.kind == kind::MOTION => SpeedSeen::Closed,
+            SpeedSeen::Open if record.major == words::SPINDL => {
+                record.number_after(words::RPM).map_or(SpeedSeen::Closed, SpeedSeen::Known)
+            }
+            seen => seen,
+        }
+    }
+
+    fn known(self) -> Option<f64> {
+        match self {
+            SpeedSeen::Known(speed) => Some(speed),
+            SpeedSeen::Open | SpeedSeen::Closed => None,
+        }
+    }
 }
 
 impl ToolsSeen {
@@ -369,6 +402,7 @@ impl ToolsSeen {
         if record.kind == kind::FINI {
             return Some(self.at_the_end());
         }
+        self.speed = self.speed.take(record);
         if !changes_tool(record) {
             return None;
         }

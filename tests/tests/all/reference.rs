@@ -10,6 +10,7 @@ use filpost::builtins::BUILTINS;
 use filpost::commons::EMPTY;
 use filpost::locations::{TABLE, default_commons};
 use filpost::postf::{Grade, POSTF};
+use filpost::ready::READY;
 use filpost::statements::STATEMENTS;
 use filpost::user_blocks;
 use filpost_tests::examples::{Block, run};
@@ -382,5 +383,19 @@ fn the_examples_run() {
         let diags = run(&block).expect("an example of FIL is run");
         let errors: Vec<_> = diags.iter().filter(|diag| diag.is_error()).collect();
         assert!(errors.is_empty(), "{}: {errors:?}", row.word);
+    }
+}
+
+#[test]
+fn the_page_of_each_ready_post_shows_its_program() {
+    for post in READY {
+        let cases = ["production-faces", "production"].into_iter();
+        let mut programs = cases.filter_map(|case| {
+            let path = root().join("corpus/posts").join(post.name).join(case).join("part.nc");
+            std::fs::read_to_string(path).ok()
+        });
+        let program = programs.next().expect("a production program of each ready post");
+        let block = format!("```nc\n{}\n```\n", program.trim_end());
+        assert!(post.readme().contains(&block), "fil-scripts/posts/{}/README.md", post.name);
     }
 }

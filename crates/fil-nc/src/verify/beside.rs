@@ -1,7 +1,7 @@
 //! What stands between the motions: dwells, texts, functions, the end.
 
 use super::ahead::Steps;
-use super::expected_step::{Effect, End, Step};
+use super::expected_step::{Effect, End, ExpectedStep, Step};
 use super::report::{FindingKind, Unverified};
 use super::say::short;
 use super::settings::Quantity;
@@ -102,6 +102,17 @@ impl<C: Steps> Verifier<'_, C> {
         self.auxiliaries.ask(code, cl_line, [last, next]);
     }
 
+    /// A stop right before a tool change that stops there anyway is that one; before anything else
+    /// it stands by itself.
+    pub(super) fn settle_held_stop(&mut self, next: &ExpectedStep) {
+        let waits = matches!(next, ExpectedStep::Cutter(_));
+        let Some(cl_line) = self.memory.held_stop.take_if(|_| !waits) else { return };
+        let stops_there = matches!(next, ExpectedStep::Tool { .. }) && self.blocks.changes > 0;
+        if !stops_there {
+            self.ask_auxiliary(cl_line, self.settings.stop_at_change());
+        }
+    }
+
     /// An auxiliary function may stand between the last motion and the next.
     pub(super) fn allow_auxiliary(&mut self, code: u32) {
         let next = self.nc.get(self.next).map_or(u32::MAX, |event| event.line());
@@ -200,6 +211,9 @@ impl<C: Steps> Verifier<'_, C> {
         let to = self.settings.home_at_end(self.limits.metric);
         if to != [None; 3] {
             self.go_to_machine(cl_line, to);
+        }
+        if self.settings.turns_home_at_end() {
+            self.turn_home(cl_line);
         }
     }
 

@@ -33,6 +33,9 @@ impl<C: Steps> Verifier<'_, C> {
         let Some(count) = self.rapid_parts(self.next, pose) else { return false };
         let last = self.next + count - 1;
         let Some(Event::Move(end)) = self.nc.get(last) else { return false };
+        if self.facts.has(Fact::Away) || self.facts.has(Fact::FreshTool) {
+            self.expected.approach_at(2.0 * end.to.linear[0].abs(), self.settings);
+        }
         let linear = self.settings.forward.frame_of(&end.to).linear(pose.tip);
         let exact = Position { linear, ..end.to };
         let leg = if self.facts.has(Fact::FreshTool) { Leg::FromAfar } else { Leg::OfPath };

@@ -7,7 +7,11 @@ use super::rapid_lean::Leg;
 use super::report::FindingKind;
 use super::say::short;
 use super::verifier::{Fact, STILL, Verifier};
+use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Position};
+
+/// Directions of the tool that differ by less are one: what the rounding of angles makes.
+const SAME_AXIS: f64 = 1e-4;
 
 impl<C: Steps> Verifier<'_, C> {
     /// A rapid to a position of the linear axes, mm; the others stay, and the rotary axes.
@@ -76,7 +80,9 @@ impl<C: Steps> Verifier<'_, C> {
                 0..3 => self.slack.linear[n],
                 _ => self.slack.rotary[n - 3],
             };
-            let is_axis = |n: usize| n > 2 || self.limits.written[n];
+            // While a mill-turn machine turns, the axis C is its spindle.
+            let is_spindle = self.settings.is_mill_turn() && !self.expected.mills();
+            let is_axis = |n: usize| if n > 2 { !is_spindle } else { self.limits.written[n] };
             // Behind the end of a frame the axes stand where the tool stood in it. An axis that is
             // named goes to a place of the machine, which says nothing of where it stood.
             let stands = self.out_of_polar(&found).unwrap_or_else(|| self.at_as(&found));
@@ -224,6 +230,39 @@ impl<C: Steps> Verifier<'_, C> {
         }
     }
 
+    /// The way up before a rapid to a pose that turns the machine, of a tool that has come to the part.
+    pub(super) fn go_up_for_turns(&mut self, cl_line: u32, pose: &Pose) {
+        let is_in_part = !self.facts.has(Fact::FreshTool) && !self.facts.has(Fact::Away);
+        if !self.settings.turns_at_top() || !is_in_part || self.at.names_tip() {
+            return;
+        }
+        let here = self.settings.forward.pose(&self.at);
+        if (here.axis - pose.axis).norm() > SAME_AXIS {
+            self.retract(cl_line);
+        }
+    }
+
+    /// The rotary axes turn home before the program ends.
+    pub(super) fn turn_home(&mut self, cl_line: u32) {
+        let mut open = self.settings.forward.rotaries().each_ref().map(Option::is_some);
+        while let Some(found) = self.next_move().filter(|_| open.contains(&true)) {
+            let stays = (0..3).all(|n| !found.known[n] || found.to.linear[n] == self.at.linear[n]);
+            if found.course != Course::Rapid || !stays {
+                break;
+            }
+            for n in 0..2 {
+                open[n] &= found.to.rotary[n].abs() > self.slack.rotary[n];
+            }
+            self.take_without_length(cl_line, &found);
+            self.next += 1;
+        }
+        let is_home = |n: &usize| self.known[n + 3] && self.at.rotary[*n] == 0.0;
+        if (0..2).filter(|n| open[*n]).any(|n| !is_home(&n)) {
+            let message = "the rotary axes do not turn to 0".to_string();
+            self.find(FindingKind::Missing, Some(cl_line), None, message);
+        }
+    }
+
     /// A rotary axis turns by itself to a position, at rapid.
     pub(super) fn turn(&mut self, cl_line: u32, index: usize, angle: f64, way: TableWay) {
         self.report.compared += 1;
@@ -288,13 +327,21 @@ impl<C: Steps> Verifier<'_, C> {
     /// The machine turns right after a tool change or a position of the machine, where the tool is away from the part,
     /// for a frame or tool-tip control that the next motion is in.
     pub(super) fn turns_away(&self, found: &Move) -> bool {
-        let stands = (0..3).all(|n| found.to.linear[n] == self.at.linear[n] || !found.known[n]);
+        let stays = |n: usize| found.to.linear[n] == self.at.linear[n] || !found.known[n];
         let turns = found.to.rotary != self.at.rotary || self.known[3..] != found.known[3..];
-        if found.course != Course::Rapid || found.to.names_tip() || !stands || !turns {
+        let goes_over = self.settings.turns_at_top() && stays(2) && !(stays(0) && stays(1));
+        let is_still = stays(2) && (turns && stays(0) && stays(1) || goes_over && !turns);
+        if found.course != Course::Rapid || found.to.names_tip() || !is_still {
             return false;
         }
+        let is_over = |next: &Move| {
+            let is_down = next.known[2] && next.to.linear[2] != found.to.linear[2];
+            next.course == Course::Rapid && !is_down && next.to.rotary == found.to.rotary
+        };
         let behind = self.nc.from(self.next + 1).find_map(|event| match event {
-            Event::Move(next) => Some(next.to.names_tip()),
+            Event::Move(next) if next.to.names_tip() => Some(true),
+            Event::Move(next) if self.settings.turns_at_top() && is_over(&next) => None,
+            Event::Move(_) => Some(false),
             _ => None,
         });
         (self.facts.has(Fact::Away) || found.modes.tool != self.moved.modes.tool)

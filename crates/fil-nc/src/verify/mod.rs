@@ -124,7 +124,8 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let settings = Settings::new(check.commons, check.allowed.tolerance)?;
     let rapto_is_level = check.commons.read(loc::CYCLE_RAPTO) == CycleRapto::AboveTheHole;
     let path = ClPath::new(check.cl, check.cl_name, settings.input_shift())
-        .with_rapto_as_level(rapto_is_level);
+        .with_rapto_as_level(rapto_is_level)
+        .with_rigid_taps(check.commons.read(loc::CYCLE_TAP_RIGID));
     let path = path.on_machine(settings.shift_along(), settings.matrix_leaves_axis());
     let path = path.with_frame_words(settings.frame_words());
     let path = path.clear_of_threads_by(settings.thread_clearance());

@@ -39,6 +39,8 @@ pub(super) struct ExpectedSpindle {
     /// How the last record that turned it did.
     pub(super) last_turn: Option<Spindle>,
     pub(super) speed: DelayedMode<Speed>,
+    /// The rev/min of the approach before a surface speed, where the settings ask for it.
+    pub(super) approach: Option<f64>,
     /// `None` where words of the user's own may have set it.
     pub(super) speed_limit: Option<Option<f64>>,
     /// `None` when none is asked for.
@@ -54,6 +56,7 @@ impl ExpectedSpindle {
             turn: DelayedMode::new(Some(Spindle::Off)),
             last_turn: None,
             speed: DelayedMode::new(None),
+            approach: None,
             speed_limit: Some(speed_limit),
             range: None,
             orientation: None,
@@ -386,6 +389,16 @@ impl Expected {
         (top < f64::MAX).then_some(turns.min(top))
     }
 
+    /// The tool comes to the part at a diameter, mm: until the first cut the spindle may turn at the
+    /// rev/min of it, where a surface speed is asked for.
+    pub(super) fn approach_at(&mut self, diameter: f64, settings: &Settings) {
+        let Some(Speed::Surface(speed)) = self.spindle.speed.asked() else { return };
+        let limit = self.spindle.speed_limit.flatten().unwrap_or(f64::INFINITY);
+        let turns = (speed * 1000.0 / (std::f64::consts::PI * diameter)).min(limit);
+        let within = turns.is_finite().then(|| settings.speed_within(turns, self.spindle.range));
+        self.spindle.approach = within.filter(|_| settings.leads_in_by_turns());
+    }
+
     /// Takes up a speed, with the range that it brings along.
     fn take_speed(&mut self, speed: Speed, settings: &Settings) {
         let speed = match speed {
@@ -407,6 +420,7 @@ impl Expected {
             }
         };
         self.spindle.speed.set(Some(speed), settings.spindle_due());
+        self.spindle.approach = None;
         self.naming.has_speed = true;
     }
 

@@ -157,6 +157,7 @@ impl<'a, C: Steps> Verifier<'a, C> {
         self.nc.forget(self.next.saturating_sub(1));
         let offset = self.expected.fixture.must;
         self.expected.take(&step.what, self.settings);
+        self.settle_held_stop(&step.what);
         match &step.what {
             ExpectedStep::WorkOffset(_) if offset != self.expected.fixture.must => {
                 self.go_up_for_offset(step.line);
@@ -222,7 +223,11 @@ impl<'a, C: Steps> Verifier<'a, C> {
                 }
             }
             ExpectedStep::Stop { optional } => {
-                self.ask_auxiliary(step.line, self.settings.stop_code(*optional));
+                let code = self.settings.stop_code(*optional);
+                match code.is_some() && code == self.settings.stop_at_change() {
+                    true => self.memory.held_stop = Some(step.line),
+                    false => self.ask_auxiliary(step.line, code),
+                }
             }
             ExpectedStep::OverrideLock(on) => {
                 self.ask_auxiliary(step.line, self.settings.override_lock(*on))
@@ -253,6 +258,11 @@ impl<'a, C: Steps> Verifier<'a, C> {
         self.report.compared += 1;
         if !matches!(step.what, ExpectedStep::Hole(_)) {
             self.memory.initial = None;
+        }
+        match &step.what {
+            ExpectedStep::Rapid(pose) => self.go_up_for_turns(step.line, pose),
+            ExpectedStep::Hole(hole) => self.go_up_for_turns(step.line, &hole.start),
+            _ => {}
         }
         let rests = self.at.tip_control && self.rests_before_tip_end(step);
         if rests || self.rests_before_machine(step) {

@@ -36,7 +36,7 @@ pub(crate) mod tap;
 mod texts;
 pub mod thread_cycle;
 pub mod vectors;
-mod waiting;
+pub(crate) mod waiting;
 pub mod word_address;
 mod writing;
 
@@ -59,7 +59,7 @@ use crate::block::Block;
 use crate::cause::Cause;
 use crate::control_state::{Codes, Compensation, ControlState, Meaning, Source, modal};
 use crate::errors::PostCode;
-use crate::operation::Feed;
+use crate::operation::{Feed, Stop};
 use crate::tape::Tape;
 use crate::warnings::Warnings;
 
@@ -108,8 +108,17 @@ pub(crate) struct Tools {
     /// The coolant that a tool change has switched off, by its settings: it comes on again at the
     /// next point, unless COOLNT comes first.
     pub coolant: Option<CodeAt>,
-    /// Messages that wait for a tool change, with their causes.
-    pub messages: Vec<(String, Cause)>,
+    /// Messages and optional stops that wait for a tool change, with their causes.
+    pub held: Vec<(Held, Cause)>,
+}
+
+/// What waits for a tool change.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Held {
+    /// A message to the operator.
+    Message(String),
+    /// A stop, which the tool change makes behind its retract.
+    Stop(Stop),
 }
 
 /// The output side of the post.

@@ -11,6 +11,7 @@ use crate::block::Block;
 use crate::cause::Cause;
 use crate::control_state::{Length, modal};
 use crate::errors::PostCode;
+use crate::operation::SpindleTurn;
 
 /// What words that wait command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,12 +38,27 @@ enum Due {
     BeforeAny,
 }
 
+/// A constant surface speed (G96) that waits for the first cut.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceSpeed {
+    /// What SPINDL asks for.
+    pub turn: SpindleTurn,
+    /// The highest speed that the same record names (MAXRPM), rev/min.
+    pub limit: Option<f64>,
+    /// The record.
+    pub cause: Cause,
+    /// The spindle turns at the rev/min of the approach (G97) already.
+    pub leads_in: bool,
+}
+
 /// Words that wait for a motion.
 #[derive(Clone, Debug, Default)]
 pub struct Waiting {
     words: Vec<(Function, Due, Block)>,
     /// Tool length offset to be called with the next Z motion, with its cause.
     pub length_offset: Option<(i64, Cause)>,
+    /// A constant surface speed that begins with the first cut.
+    pub surface_speed: Option<SurfaceSpeed>,
     /// How often words or texts had named a length when it began to wait.
     lengths_said: u32,
 }

@@ -13,7 +13,7 @@ use fil_machine::modes::FeedMode;
 use super::position::Solution;
 use super::{
     Since, expand, frame_begin, mill_turn, position, rapid, rapid_turn, rotary, scaled_lead,
-    tip_hole,
+    tip_hole, turn_at_top,
 };
 use crate::control::needs::Act;
 use crate::control::place::cross_unknown;
@@ -70,6 +70,9 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     }
     if post.control.tables.frame_output && frame_begin::turn_to(post, target, false)? {
         (cycle.initial, cycle.above, cycle.in_force) = (None, None, None);
+    }
+    if post.control.tables.turns_at_top {
+        turn_at_top::go_up(post, target)?;
     }
     post.control.family().ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
     post.control.ready_length()?;

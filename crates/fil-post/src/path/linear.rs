@@ -2,7 +2,9 @@
 
 use fil_diag::Result;
 
-use super::{frame_begin, mill_turn, rotary, solution, straight, tip_control, travel};
+use super::{
+    frame_begin, lead_in, mill_turn, rotary, solution, straight, tip_control, travel, turn_at_top,
+};
 use crate::control::full_turn;
 use crate::control::word_address::cycle;
 use crate::operation::{MotionKind, Target};
@@ -61,7 +63,11 @@ fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Result<bool> {
     if post.control.tables.follows_edits {
         rotary::follow(post);
     }
+    lead_in::before(post, target, kind)?;
     let at_feed = !matches!(kind, MotionKind::Rapid(_));
+    if !at_feed {
+        turn_at_top::go_up(post, target)?;
+    }
     if post.writes_tip() {
         tip_control::say_by_vector(post, at_feed);
         tip_control::ready(post, target)?;

@@ -21,6 +21,7 @@ mod functions_of_others;
 pub mod height;
 pub mod hole;
 pub(crate) mod index;
+pub(crate) mod lead_in;
 pub(crate) mod linear;
 pub mod linearization;
 pub(crate) mod long_arc;
@@ -53,6 +54,7 @@ mod transformation;
 mod travel;
 #[cfg(test)]
 mod trial;
+mod turn_at_top;
 mod turned_apart;
 mod turning;
 mod turning_feed;

@@ -1,7 +1,7 @@
 //! Each operation of a post word brought to the machine, the moment it is made.
 
 use super::{
-    arc, compensation_side, counted_spindle, frame, frame_end, hole, index, linear,
+    arc, compensation_side, counted_spindle, frame, frame_end, hole, index, lead_in, linear,
     machine_position, mill_turn, position, rotary, skip, tip_control, tool_change, way_home,
     whole_thread,
 };
@@ -24,6 +24,9 @@ pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
         Operation::Linear(target, kind) => linear::carry_out(post, &target, kind),
         Operation::Arc(arc, target) => {
             arc::refuse_nearly_full(post, &arc, target)?;
+            if post.control.waiting.surface_speed.is_some() {
+                lead_in::end(&mut post.control)?;
+            }
             if post.control.tables.mills() {
                 mill_turn::before_arc(post, &arc, target)?;
             }
@@ -43,9 +46,11 @@ type Before = fn(&mut Post, &Operation) -> Result<()>;
 
 /// In this order: nothing comes between a thread and its points; tool-tip control or a tilted frame
 /// ends, out of which the tool goes up along itself first; then a mill-turn machine leaves its planes
-/// of lengths; what an author's function may not change is what is in force then.
-const BEFORE: [Before; 7] = [
+/// of lengths; what an author's function may not change is what is in force then. A surface speed
+/// that waits for the first cut begins before what depends on it.
+const BEFORE: [Before; 8] = [
     |post, _| post.require(Act::Word),
+    |post, operation| lead_in::before_operation(&mut post.control, operation),
     tip_control::before,
     frame_end::go_up,
     |post, operation| frame::before(&mut post.control, operation),

@@ -71,7 +71,7 @@ pub(super) fn out_of_cut(control: &mut Control, motion: &Motion, cause: Cause) -
     let ends = match lie {
         None => vec![motion.position],
         Some(Lie::Along { number, .. }) => {
-            let blocks = order(number, rises).map(|(axes, _)| axes);
+            let blocks = order(control, number, rises).map(|(axes, _)| axes);
             rapid_turn::ends_of(control, motion, &blocks, &from)
         }
         Some(Lie::Leaning) => {
@@ -136,7 +136,8 @@ fn in_parts(control: &mut Control, motion: &Motion, cause: Cause, warns: bool) -
     };
     let tool_first = motion.axes.has(number) && decide_first(control, motion, number, up)?;
     if warns {
-        rapid_turn::warn_of_dip(control, motion, &order(number, tool_first).map(|(axes, _)| axes));
+        let blocks = order(control, number, tool_first).map(|(axes, _)| axes);
+        rapid_turn::warn_of_dip(control, motion, &blocks);
     }
     split(control, motion, number, tool_first, cause)
 }
@@ -150,7 +151,7 @@ pub(super) fn turn_away(control: &mut Control, motion: &Motion, cause: Cause) ->
     match Lie::of(control, motion) {
         Lie::Along { number, up } => {
             let tool_first = decide_first(control, motion, number, up)?;
-            let blocks = order(number, tool_first).map(|(axes, _)| axes);
+            let blocks = order(control, number, tool_first).map(|(axes, _)| axes);
             rapid_turn::warn_of_dip_when_out(control, motion, &blocks);
             split(control, motion, number, tool_first, cause)
         }
@@ -203,13 +204,19 @@ pub(super) fn refuse_between_levels(control: &Control, to: &Motion) -> Result<()
 }
 
 /// Which axes move in which block, and by which code; `number` is the axis that the tool lies
-/// along.
-fn order(number: usize, tool_first: bool) -> [(AxisSet, RapidCode); 3] {
+/// along. At the machine's top the rotary axes go first, where the settings ask for turns there.
+fn order(control: &Control, number: usize, tool_first: bool) -> [(AxisSet, RapidCode); 3] {
     let tool = AxisSet::of(number);
     let across = (AxisSet::LINEAR.without(tool), RapidCode::Across);
     let turning = (AxisSet::ROTARY, RapidCode::Turning);
     let along = (tool, RapidCode::Along);
-    if tool_first { [along, across, turning] } else { [across, turning, along] }
+    match tool_first {
+        true => [along, across, turning],
+        false if control.tables.turns_at_top && rapid_lean::is_away(control) => {
+            [turning, across, along]
+        }
+        false => [across, turning, along],
+    }
 }
 
 fn split(
@@ -220,7 +227,7 @@ fn split(
     cause: Cause,
 ) -> Result<()> {
     let present = control.tables.present();
-    for (group, code) in order(number, tool_first) {
+    for (group, code) in order(control, number, tool_first) {
         if !group.and(present).is_empty() {
             family::rapid(control, &motion.of(group), code, cause)?;
         }
@@ -288,7 +295,7 @@ fn decide_first(control: &mut Control, motion: &Motion, number: usize, up: bool)
 }
 
 /// True when the motion turns a rotary axis, or may, as nothing says where it stands.
-fn turns(control: &Control, motion: &Motion) -> bool {
+pub(super) fn turns(control: &Control, motion: &Motion) -> bool {
     let mut rotary = motion.axes.and(AxisSet::ROTARY).and(control.tables.present()).numbers();
     rotary.any(|number| match control.place(number) {
         Place::At(at) => {

@@ -172,6 +172,8 @@ pub(crate) struct Cutter {
 pub struct LookAhead {
     /// The tool changes behind the next one.
     pub tools: NextTools,
+    /// The rev/min of the first SPINDL behind the next tool change, where no motion comes before it.
+    pub speed: Option<f64>,
     /// The motions behind a RAPID.
     pub motions: Vec<Coming>,
 }

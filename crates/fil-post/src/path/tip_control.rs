@@ -45,8 +45,8 @@ pub(super) fn ready(post: &mut Post, target: Target) -> Result<()> {
     if post.control.state.is(modal::TCP, true) {
         return Ok(());
     }
-    let (_, axis) = position::transformed(post, target);
-    begin(post, axis)
+    let (point, axis) = position::transformed(post, target);
+    begin(post, point, axis)
 }
 
 /// The words of a motion to a point: the tip, and the angles of the rotary axes.
@@ -101,12 +101,12 @@ fn takes_vector(post: &Post, angles: [f64; 2], axis: Vector3<f64>) -> Result<boo
     PostCode::TipControl.err_with(message, vectors::SAY_ANGLES)
 }
 
-/// Begins tool-tip control. `axis`: the tool at the end of the first motion.
+/// Begins tool-tip control. `point`, `axis`: the tool at the end of the first motion.
 ///
 /// # Errors
 /// No tool whose length the control has; cutter compensation; tables that would turn
 /// beside the part.
-fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
+fn begin(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<()> {
     let control = &mut post.control;
     control.begin()?;
     control.require_unit()?;
@@ -129,8 +129,8 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     if comes_down && !is_up {
         go_up_with_length(control)?;
     }
-    if post.control.tip.by_vector {
-        turn_to_first_axis(post, axis)?;
+    if post.control.tip.by_vector || post.control.tables.turns_at_top {
+        turn_to_first_axis(post, point, axis)?;
     }
     turn_tables_to_zero(post)?;
     let known = vectors::stand_known(&post.control);
@@ -178,11 +178,12 @@ fn names_tip(control: &mut Control, rotary: Option<[f64; 2]>) -> Result<()> {
 }
 
 /// Turns the rotary axes by angles to where the first motion has them, where a vector could
-/// turn them otherwise: the control begins anywhere, and the tool is away from the part.
+/// turn them otherwise or the machine turns at its top: the control begins anywhere, and the tool is
+/// away from the part. Over tables X and Y go there too, so that the first motion comes down alone.
 ///
 /// # Errors
 /// The machine can't reach the tool axis.
-fn turn_to_first_axis(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
+fn turn_to_first_axis(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<()> {
     let control = &post.control;
     let anywhere =
         control.commons.read(loc::ROTARY_TIP_CONTROL) == RotaryTipControl::BeginsAnywhere;
@@ -195,7 +196,13 @@ fn turn_to_first_axis(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     let cause = post.control.block.cause.whole();
     rapid::rapid(&mut post.control, &motion, cause)?;
     post.path.rotary = Some(angles);
-    Ok(())
+    let tables = &post.control.tables;
+    if !tables.turns_at_top || tables.chain().has_heads() {
+        return Ok(());
+    }
+    let slides = tables.chain().linear(point, angles);
+    let over = Motion::new([slides.x, slides.y, slides.z, 0.0, 0.0], AxisSet::XY, 0);
+    rapid::rapid(&mut post.control, &over, cause)
 }
 
 /// Turns the tables to zero, where the control needs that.

@@ -21,7 +21,10 @@ use crate::post::Post;
 /// True for a machine whose tool changes depend on those behind them.
 pub fn looks_ahead(commons: &Commons) -> bool {
     let last = user_blocks::LAST_CHANGE;
-    commons.read(loc::TOOL_PRESELECT) || last.before.is_on(commons) || last.after.is_on(commons)
+    commons.read(loc::TOOL_PRESELECT)
+        || commons.read(loc::TOOL_CALL_SPEED)
+        || last.before.is_on(commons)
+        || last.after.is_on(commons)
 }
 
 /// Refuses the change to a tool that blocks behind the skip switch may have brought already: the
@@ -49,14 +52,13 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     control.family().take_own_offset(control, &mut wanted)?;
     refuse_change_by_switch(control, wanted.tool)?;
     if !tool::prepare(control, &wanted)? {
-        return way_home::write_messages(control);
+        return way_home::write_held(control);
     }
     turned_apart::warn_of_length(control);
     leave_part(post)?;
     let control = &mut post.control;
     tip_control::end(control)?;
     frame::end(control)?;
-    control.tape.align();
     let around = around(control, &wanted);
     let is_first = control.tools.changes == 0;
     control.tools.changes += 1;
@@ -71,8 +73,9 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
         go_to_change_position(control, cause)?;
         if is_first { Ok(()) } else { way_home::stop_at_change(control) }
     })?;
-    way_home::write_messages(control)?;
+    way_home::write_held(control)?;
     control.tip.is_away = true;
+    control.tape.align();
     control.family().change_tool(control, wanted)?;
     write_blocks(control, around[1])?;
     prepare_next(control, &wanted)?;

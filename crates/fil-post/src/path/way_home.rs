@@ -3,14 +3,16 @@
 
 use fil_diag::Result;
 use fil_machine::FunctionCode;
+use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations::{self as loc, ProgramEndBlock, ToolChangeStop};
 use fil_machine::setting::CodeAt;
 
 use super::{height, machine_position};
 use crate::control::machine_frame::Before;
 use crate::control::word_address::{coolant, cycle, fixture, spindle};
-use crate::control::{Control, program};
+use crate::control::{Control, Held, family, program};
 use crate::control_state::{Source, modal};
+use crate::operation::motion::{Motion, RapidCode};
 use crate::operation::{Coolant, Operation, Spindle, Stop};
 use crate::post::Post;
 
@@ -55,27 +57,37 @@ fn switch_off(control: &mut Control) -> Result<()> {
     Ok(())
 }
 
-/// Stops at the tool change position, as the machine asks for it.
+/// The stop that the machine makes at a tool change, behind its retract.
+pub(crate) fn stops_at_change(control: &Control) -> Option<Stop> {
+    match control.commons.read(loc::TOOL_CHANGE_STOP) {
+        ToolChangeStop::None => None,
+        ToolChangeStop::OptionalStop => Some(Stop::Optional),
+        ToolChangeStop::Stop => Some(Stop::Always),
+    }
+}
+
+/// Stops at the tool change position, as the machine asks for it; a stop that the CL file asks for
+/// right before the change is that one.
 ///
 /// # Errors
 /// The machine has no code for the stop.
 pub(super) fn stop_at_change(control: &mut Control) -> Result<()> {
-    let stop = match control.commons.read(loc::TOOL_CHANGE_STOP) {
-        ToolChangeStop::None => return Ok(()),
-        ToolChangeStop::OptionalStop => Stop::Optional,
-        ToolChangeStop::Stop => Stop::Always,
-    };
+    let Some(stop) = stops_at_change(control) else { return Ok(()) };
+    control.tools.held.retain(|(held, _)| *held != Held::Stop(stop));
     control.family().write(control, Operation::Stop(stop))
 }
 
-/// Writes the messages that have waited for a tool change, or for what has come instead of it.
+/// Writes the messages and stops that have waited for a tool change, or for what has come instead of it.
 ///
 /// # Errors
 /// As a line on the tape.
-pub(crate) fn write_messages(control: &mut Control) -> Result<()> {
-    for (text, cause) in std::mem::take(&mut control.tools.messages) {
-        control
-            .because(cause, |control| control.family().write(control, Operation::Message(text)))?;
+pub(crate) fn write_held(control: &mut Control) -> Result<()> {
+    for (held, cause) in std::mem::take(&mut control.tools.held) {
+        let operation = match held {
+            Held::Message(text) => Operation::Message(text),
+            Held::Stop(stop) => Operation::Stop(stop),
+        };
+        control.because(cause, |control| control.family().write(control, operation))?;
     }
     Ok(())
 }
@@ -134,7 +146,7 @@ pub(super) fn take_work_offset(post: &mut Post, number: Option<i64>) -> Result<(
 
 /// Goes up to the level of RETRCT; the next motion says its function again, so that the program can
 /// be begun there.
-fn go_up(post: &mut Post) -> Result<()> {
+pub(super) fn go_up(post: &mut Post) -> Result<()> {
     match post.control.commons.dbl_opt(loc::HOME_RETRACT_Z) {
         Some(level) if !height::is_above(&post.control, level)? => {
             machine_position::carry_out(post, [None, None, Some(level)])?;
@@ -165,7 +177,28 @@ pub(super) fn before_end(post: &mut Post) -> Result<()> {
     let to = match block {
         ProgramEndBlock::None => return Ok(()),
         ProgramEndBlock::Z => [None, None, home[2]],
-        ProgramEndBlock::ZThenXAndY => home,
+        ProgramEndBlock::ZThenXAndY | ProgramEndBlock::ZThenXAndYThenRotaryAxes => home,
     };
-    machine_position::carry_out_before(post, to, Before::End)
+    machine_position::carry_out_before(post, to, Before::End)?;
+    match block {
+        ProgramEndBlock::ZThenXAndYThenRotaryAxes => turn_home(post),
+        _ => Ok(()),
+    }
+}
+
+/// Turns the rotary axes to 0, clear of the part; axes that do not reach 0 stay.
+///
+/// # Errors
+/// As a rapid motion.
+fn turn_home(post: &mut Post) -> Result<()> {
+    let control = &mut post.control;
+    let axes = AxisSet::ROTARY.and(control.tables.present());
+    if axes.is_empty() || !control.tables.chain().reaches([0.0; 2]) {
+        return Ok(());
+    }
+    // The block stands alone behind the way home.
+    control.state.forget(modal::MOTION, Source::Post);
+    let cause = control.block.cause.whole();
+    let motion = Motion::new(Position::default(), axes, 0);
+    family::rapid(control, &motion, RapidCode::Turning, cause)
 }

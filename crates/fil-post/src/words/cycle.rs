@@ -74,7 +74,8 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
     let step = step(post, items, kind, &mut words.step)?;
     let returns = return_level(items)?;
     let retract = returns.or(travel);
-    let rigid = kind == CycleKind::Tap && items.flag(w::HIGH);
+    let all_rigid = post.control.commons.read(loc::CYCLE_TAP_RIGID);
+    let rigid = kind == CycleKind::Tap && (items.flag(w::HIGH) || all_rigid);
     if kind == CycleKind::Tap && !rigid {
         warn_of_mode(post);
     }

@@ -51,7 +51,7 @@ pub fn finish(post: &mut Post, end: End) -> Result<()> {
         return PostCode::ArcEnd.err("no GOTO followed the last CIRCLE");
     }
     judge_arcs(post)?;
-    way_home::write_messages(&mut post.control)?;
+    way_home::write_held(&mut post.control)?;
     thread::end(post)?;
     post.path.cycle = None;
     leave_side_spindle(post)?;

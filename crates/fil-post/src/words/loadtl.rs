@@ -53,7 +53,8 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     tool_names::load(&mut post.control, tool)?;
     let causes = [cause, offset_cause];
     let next = std::mem::take(&mut post.path.ahead.tools);
-    let change = ToolChange { tool, offset, offset_given, next, causes };
+    let speed = post.path.ahead.speed.take();
+    let change = ToolChange { tool, offset, offset_given, next, speed, causes };
     carry_out(post, Operation::ToolChange(change))
 }
 

@@ -3,6 +3,7 @@
 use fil_diag::Result;
 use fil_machine::locations as loc;
 
+use crate::control::Held;
 use crate::items::Items;
 use crate::operation::Operation;
 use crate::path::carry_out;
@@ -20,7 +21,8 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         return Ok(());
     }
     if post.control.commons.read(loc::MESSAGE_WAITS) {
-        post.control.tools.messages.push((text, post.control.block.cause.whole()));
+        let cause = post.control.block.cause.whole();
+        post.control.tools.held.push((Held::Message(text), cause));
         return Ok(());
     }
     carry_out(post, Operation::Message(text))

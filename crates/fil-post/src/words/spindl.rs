@@ -12,7 +12,7 @@ use crate::items::Items;
 use crate::operation::{
     CountedSpindle, Operation, SideSpindle, Spindle, SpindleRange, SpindleSpeed, SpindleTurn,
 };
-use crate::path::carry_out;
+use crate::path::{carry_out, lead_in};
 use crate::post::Post;
 
 /// Commands the spindle.
@@ -55,15 +55,18 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         post.control.block.cause.word = word;
         carry_out(post, Operation::Spindle(Spindle::Range(range)))?;
     }
+    let turn = turn.map(|turn| SpindleTurn { in_named_range: range.is_some(), ..turn });
+    let highest = limit.map(|(limit, _)| limit);
+    lead_in::end(&mut post.control)?;
+    if turn.is_some_and(|turn| lead_in::keep(&mut post.control, turn, highest)) {
+        return Ok(());
+    }
     if let Some((limit, word)) = limit {
         post.control.block.cause.word = word;
         carry_out(post, Operation::Spindle(Spindle::Limit(limit)))?;
     }
     match turn {
-        Some(turn) => {
-            let turn = SpindleTurn { in_named_range: range.is_some(), ..turn };
-            carry_out(post, Operation::Spindle(Spindle::Turn(turn)))
-        }
+        Some(turn) => carry_out(post, Operation::Spindle(Spindle::Turn(turn))),
         None => Ok(()),
     }
 }

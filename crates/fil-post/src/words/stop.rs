@@ -2,9 +2,10 @@
 
 use fil_diag::Result;
 
+use crate::control::Held;
 use crate::items::Items;
 use crate::operation::{Operation, Stop};
-use crate::path::carry_out;
+use crate::path::{carry_out, way_home};
 use crate::post::Post;
 
 /// Stops.
@@ -13,7 +14,7 @@ use crate::post::Post;
 /// The machine has no such code.
 pub fn stop(post: &mut Post, items: &mut Items) -> Result<()> {
     items.deny_rest()?;
-    carry_out(post, Operation::Stop(Stop::Always))
+    make(post, Stop::Always)
 }
 
 /// Stops when the operator wants it.
@@ -22,5 +23,15 @@ pub fn stop(post: &mut Post, items: &mut Items) -> Result<()> {
 /// The machine has no such code.
 pub fn opstop(post: &mut Post, items: &mut Items) -> Result<()> {
     items.deny_rest()?;
-    carry_out(post, Operation::Stop(Stop::Optional))
+    make(post, Stop::Optional)
+}
+
+/// Stops, or leaves the stop to a tool change right behind it, where the machine stops there anyway.
+fn make(post: &mut Post, stop: Stop) -> Result<()> {
+    let control = &mut post.control;
+    if way_home::stops_at_change(control) == Some(stop) {
+        control.tools.held.push((Held::Stop(stop), control.block.cause.whole()));
+        return Ok(());
+    }
+    carry_out(post, Operation::Stop(stop))
 }

@@ -106,7 +106,7 @@ impl<'o, 'r> Outside<'o, 'r> {
         let Start { program, cl_name, raw, units, cancel, observers, map, mut pass, debugger } =
             start;
         let shared = &program.shared;
-        let counts = !observers.is_empty() || !matches!(pass, Pass::Only);
+        let counts = !observers.is_empty() || pass.counts();
         let module = Arc::clone(&shared.module);
         let mut post = shared.prototype.clone();
         if post.control.commons.read(PROGRAM_TOOL_LIST) {
@@ -261,7 +261,8 @@ impl<'o, 'r> Outside<'o, 'r> {
         vocabulary: &mut Vocabulary,
     ) -> Result<(), Box<Diag>> {
         if self.post.looks_ahead_for_tools() {
-            self.post.path.ahead.tools = self.source.next_tools(record, vocabulary)?;
+            let ahead = &mut self.post.path.ahead;
+            (ahead.tools, ahead.speed) = self.source.next_tools(record, vocabulary)?;
         }
         Ok(())
     }

@@ -50,7 +50,7 @@ impl State {
         let begins = self.cycle.is_none();
         // A RAPID that waits is that of the way to the first hole.
         self.rapid = false;
-        let rigid = kind == CycleKind::Tap && record.has(w::HIGH);
+        let rigid = kind == CycleKind::Tap && (record.has(w::HIGH) || self.taps_are_rigid);
         let (rapto, clear) = (record.number_after(w::RAPTO), record.number_after(w::CLEAR));
         // RAPTO beside CLEAR counts from there; the tool travels at CLEAR.
         let travel = clear.filter(|_| !self.rapto_is_level && rapto.is_some_and(|it| it != 0.0));

@@ -99,6 +99,8 @@ struct State {
     names: ToolNames,
     /// RAPTO beside CLEAR is the R level.
     rapto_is_level: bool,
+    /// Each TAP is rigid, as with HIGH.
+    taps_are_rigid: bool,
 }
 
 /// Goes through a CL file.
@@ -117,6 +119,13 @@ pub struct ClPath<'r> {
 }
 
 impl<'r> ClPath<'r> {
+    /// The same path, where each CYCLE/TAP is rigid (`cycle.tap_rigid`).
+    #[must_use]
+    pub fn with_rigid_taps(mut self, are_rigid: bool) -> Self {
+        self.state.taps_are_rigid = are_rigid;
+        self
+    }
+
     /// The same path, where RAPTO beside CLEAR is the R level (`cycle.rapto = 1`).
     #[must_use]
     pub fn with_rapto_as_level(mut self, is_level: bool) -> Self {

@@ -87,7 +87,17 @@ fn turn(expected: &Expected, seen: &Seen) -> Option<String> {
     Some(said_of_spindle(found, must, seen.doing == Doing::Cutting))
 }
 
+/// The spindle turns at the rev/min of the approach, before a surface speed begins.
+fn leads_in(expected: &Expected, seen: &Seen) -> bool {
+    let turns = seen.modes.spindle.speed.and_then(Speed::turns);
+    let differs = expected.spindle.approach.zip(turns).map(|(must, found)| (must - found).abs());
+    seen.doing == Doing::Moving && differs.is_some_and(|by| by <= seen.slack.of(Quantity::Speed))
+}
+
 fn speed(expected: &Expected, seen: &Seen) -> Option<String> {
+    if leads_in(expected, seen) {
+        return None;
+    }
     let found = seen.modes.spindle.speed;
     let must = expected.spindle.speed.refuses(|may| same_speed(may, found, seen.slack))?;
     let found = found.map_or("no speed".to_string(), said_of_speed);
@@ -116,6 +126,9 @@ const AGAIN: &str = "is not switched on again behind the tool change or stop";
 
 fn speed_limit(expected: &Expected, seen: &Seen) -> Option<String> {
     let (must, found) = (expected.spindle.speed_limit?, seen.modes.spindle.speed_limit);
+    if leads_in(expected, seen) {
+        return None;
+    }
     let is_wrong = match (must, found) {
         (Some(must), Some(limit)) => (must - limit).abs() > seen.slack.of(Quantity::Speed),
         (must, limit) => must.is_some() != limit.is_some(),

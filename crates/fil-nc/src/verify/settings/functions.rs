@@ -327,6 +327,11 @@ impl Settings<'_> {
         self.commons.dbl_opt(loc::SPINDLE_CSS_LIMIT)
     }
 
+    /// A surface speed begins behind the approach, which turns at rev/min.
+    pub fn leads_in_by_turns(&self) -> bool {
+        self.commons.read(loc::SPINDLE_CSS_LEAD_IN)
+    }
+
     /// The highest speed stands in the block of the surface speed.
     pub fn limit_comes_with_surface(&self) -> bool {
         self.commons.read(loc::SPINDLE_MAX_ADDRESS).is_some()

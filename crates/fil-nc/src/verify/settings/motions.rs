@@ -1,6 +1,6 @@
 //! What the settings of a machine make of lines, rapids, arcs and feeds.
 
-use fil_machine::axis_chain::Carries;
+use fil_machine::axis_chain::{Carries, Rotary};
 use fil_machine::commons::Dbl;
 use fil_machine::locations::{
     self as loc, CircleCorrection, FeedInverseLength, HomeFrame, HomeLatheOrder, LinearMethod,
@@ -90,8 +90,24 @@ impl Settings<'_> {
         match self.commons.read(loc::PROGRAM_END_BLOCK) {
             ProgramEndBlock::None => [None; 3],
             ProgramEndBlock::Z => [None, None, z],
-            ProgramEndBlock::ZThenXAndY => [x, y, z],
+            ProgramEndBlock::ZThenXAndY | ProgramEndBlock::ZThenXAndYThenRotaryAxes => [x, y, z],
         }
+    }
+
+    /// The rotary axes turn to 0 before the end of the program.
+    pub fn turns_home_at_end(&self) -> bool {
+        let block = self.commons.read(loc::PROGRAM_END_BLOCK);
+        let reaches = |axis: &Rotary| axis.reaches(0.0);
+        block == ProgramEndBlock::ZThenXAndYThenRotaryAxes
+            && self.forward.rotaries().iter().flatten().all(reaches)
+    }
+
+    /// Rapid motions turn rotary axes at the level of RETRCT.
+    pub fn turns_at_top(&self) -> bool {
+        self.forward.has_rotary()
+            && !self.is_mill_turn()
+            && self.commons.read(loc::ROTARY_TURN_RETRACT)
+            && self.commons.dbl_opt(loc::HOME_RETRACT_Z).is_some()
     }
 
     /// X of a lathe goes home before Z.

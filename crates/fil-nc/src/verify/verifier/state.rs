@@ -97,6 +97,8 @@ pub(in super::super) struct StepMemory {
     pub(in super::super) initial: Option<f64>,
     /// From the directions of the hole, in which its moves are written.
     pub(in super::super) from_hole: Option<FromHole>,
+    /// The record of a stop that a tool change right behind it makes.
+    pub(in super::super) held_stop: Option<u32>,
     /// How the spindle turned in the passes of the thread so far.
     pub(in super::super) thread_turns: Option<Turns>,
 }

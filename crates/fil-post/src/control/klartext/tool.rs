@@ -1,13 +1,14 @@
 //! TOOL CALL and TOOL DEF.
 
 use fil_diag::Result;
-use fil_machine::letters::T;
+use fil_machine::letters::{self, T};
 use fil_machine::locations as loc;
 use fil_machine::rounding::Rounding;
 
 use super::line::{self, Line};
 use crate::block::named;
 use crate::control::needs::Act;
+use crate::control::word_address::spindle;
 use crate::control::{Control, own_offsets};
 use crate::control_state::{Rotation, Source, modal};
 use crate::noted::TEXT;
@@ -38,6 +39,14 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     line.item(TEXT, "TOOL CALL", control.block.cause.whole());
     line.item(T.byte(), &number, wanted.causes[0]);
     line.item(TEXT, "Z", control.block.cause.whole());
+    let speed = wanted.speed.filter(|_| control.commons.read(loc::TOOL_CALL_SPEED));
+    if let Some(speed) = speed {
+        let value = spindle::speed_in_range(control, speed);
+        let (written, text) = scaled_speed(control, value)?;
+        line.item(letters::S.byte(), &text, control.block.cause.whole());
+        control.commons.set_last_output(letters::S, written);
+        control.state.trust(letters::S);
+    }
     line::put(control, &line)?;
     for number in control.tables.present().numbers() {
         control.state.tool_change_moves(control.tables.axis(number).letter);
@@ -83,12 +92,8 @@ pub fn select(control: &mut Control, tool: i64) -> Result<()> {
 /// Cutter compensation; a speed that does not fit.
 pub fn speed(control: &mut Control, value: f64) -> Result<()> {
     control.require(Act::ToolCall)?;
-    let s = fil_machine::letters::S;
-    control.require_letter(s)?;
-    let format = control.tables.addresses.format(s).copied().unwrap_or_default();
-    let scaled = Rounding::Rate.scale(value, &format).map_err(|diag| named(diag, s))?;
-    let written = format.unscale(scaled);
-    if control.has_value(s, written) {
+    let (written, text) = scaled_speed(control, value)?;
+    if control.has_value(letters::S, written) {
         return Ok(());
     }
     let cause = control.block.cause;
@@ -98,10 +103,21 @@ pub fn speed(control: &mut Control, value: f64) -> Result<()> {
         line.item(T.byte(), &number(control, tool)?, cause.whole());
     }
     line.item(TEXT, "Z", cause.whole());
-    let text = line::scaled_text(control, s, scaled).unwrap_or_default();
-    line.item(s.byte(), &format!("S{text}"), cause);
+    line.item(letters::S.byte(), &text, cause);
     line::put(control, &line)?;
-    control.commons.set_last_output(s, written);
-    control.state.trust(s);
+    control.commons.set_last_output(letters::S, written);
+    control.state.trust(letters::S);
     Ok(())
+}
+
+/// A speed as S writes it, rev/min, and its word.
+///
+/// # Errors
+/// It does not fit.
+fn scaled_speed(control: &Control, value: f64) -> Result<(f64, String)> {
+    control.require_letter(letters::S)?;
+    let format = control.tables.addresses.format(letters::S).copied().unwrap_or_default();
+    let scaled = Rounding::Rate.scale(value, &format).map_err(|diag| named(diag, letters::S))?;
+    let text = line::scaled_text(control, letters::S, scaled).unwrap_or_default();
+    Ok((format.unscale(scaled), format!("S{text}")))
 }

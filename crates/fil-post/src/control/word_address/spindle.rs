@@ -441,6 +441,25 @@ pub(super) fn surface_in_unit(speed: SpindleSpeed, metric: bool) -> Option<f64> 
     }
 }
 
+/// The rev/min of a surface speed at a radius, mm or inch: no more than the highest speed that is
+/// named or in force. `None` at the axis of the spindle where none is, and for a speed that is none
+/// of the surface.
+pub fn turns_at(
+    control: &Control,
+    turn: &SpindleTurn,
+    limit: Option<f64>,
+    radius: f64,
+) -> Option<f64> {
+    let metric = control.is_metric();
+    let speed = surface_in_unit(turn.speed?, metric)?;
+    let of_machine = control.commons.dbl_opt(loc::SPINDLE_CSS_LIMIT);
+    let limit = limit.or(control.state.get(modal::SPEED_LIMIT)).or(of_machine);
+    let in_unit = if metric { 1000.0 } else { 12.0 };
+    let turns = speed * in_unit / (2.0 * std::f64::consts::PI * radius.abs());
+    let turns = turns.min(limit.unwrap_or(f64::INFINITY));
+    turns.is_finite().then(|| speed_in_range(control, turns))
+}
+
 /// Adds the M code and writes or keeps the block; a machine without the code
 /// turns its spindle by other means.
 pub(in crate::control) fn place(control: &mut Control, at: CodeAt, what: &str) -> Result<()> {

@@ -1,0 +1,31 @@
+//! Rotary axes that turn between faces at the machine's top, as `rotary.turn_retract` asks.
+
+use fil_diag::Result;
+use fil_machine::axes::AxisSet;
+
+use super::{rapid, rapid_lean, rotary, way_home};
+use crate::operation::Target;
+use crate::operation::motion::Motion;
+use crate::post::Post;
+
+/// Goes up to `home.retract_z` (Z) before a rapid motion to a target that turns the machine, where
+/// the tool is not away already. Tilted work planes and tool center point control have rules of their
+/// own.
+///
+/// # Errors
+/// A tool axis out of reach; as a motion to a position of the machine.
+#[cold]
+pub(super) fn go_up(post: &mut Post, target: Target) -> Result<()> {
+    let tables = &post.control.tables;
+    if !tables.turns_at_top || tables.frame_output || post.writes_tip() {
+        return Ok(());
+    }
+    if rapid_lean::is_away(&post.control) {
+        return Ok(());
+    }
+    let (position, _) = rotary::position_of(post, target)?;
+    if !rapid::turns(&post.control, &Motion::new(position, AxisSet::ALL, 0)) {
+        return Ok(());
+    }
+    way_home::go_up(post)
+}
