@@ -1,5 +1,6 @@
 //! Support for the test runners of this member.
 
+pub mod audit;
 pub mod back_check;
 pub mod browser;
 pub mod cl_file;

@@ -63,6 +63,10 @@ fil_diag::codes! {
         Changed = 915, Error, "the program changed while it was read",
             "A long program is not kept in memory, its blocks are read again where they differ; what is compared would be of two states of the file.",
             "Wait until the program is written, and compare again.";
+        /// A line that no control reads.
+        LineTooLong = 916, Error, "a line of the program is too long",
+            "A line is kept in memory as a whole, and no control reads a block of more than a million bytes: this is no NC program, or its line ends got lost.",
+            "Give the NC program; line ends that got lost on the way to the control are LF, or CR and LF.";
         /// A CL file whose unit nobody says.
         NoUnit = 940, Error, "the unit of the CL file is not known",
             "Lengths mean nothing before the CL file, the machine or the user says mm or inch.",

@@ -14,6 +14,9 @@ use crate::errors::NcCode;
 /// Bytes that are read at once.
 const CHUNK: usize = 64 * 1024;
 
+/// Longest line that is read, in bytes: no control takes a block of that length.
+const LONGEST: usize = 1 << 20;
+
 /// Bytes that are read first behind a jump: few lines may be wanted.
 const FIRST_CHUNK: usize = 4 * 1024;
 
@@ -89,7 +92,7 @@ impl Source<'_> {
         let mut number = 0;
         for wanted in wanted {
             while number < *wanted {
-                let text = lines.next_line().map_err(|error| changed(name, &error.to_string()))?;
+                let text = lines.next_line().map_err(|error| unreadable(name, &error))?;
                 let Some(text) = text else { return Ok(found) };
                 number += 1;
                 if number == *wanted {
@@ -147,13 +150,21 @@ fn fill(source: &Source<'_>, offset: u64, buffer: &mut [u8]) -> io::Result<usize
     Ok(read)
 }
 
+/// E0916 for a line that is too long, E0915 where the text can't be read a second time.
+pub fn unreadable(name: &str, error: &io::Error) -> Diag {
+    if error.kind() == io::ErrorKind::InvalidData {
+        return Diag::new(NcCode::LineTooLong, format!("{name}: {error}"));
+    }
+    changed(name, &error.to_string())
+}
+
 /// E0915: the text can't be read a second time.
 pub(crate) fn changed(name: &str, why: &str) -> Diag {
     Diag::new(NcCode::Changed, format!("{name}: {why}"))
 }
 
 /// The lines of a text, one after the other.
-pub(crate) struct Lines<'s> {
+pub struct Lines<'s> {
     source: &'s Source<'s>,
     buffer: Vec<u8>,
     /// The part of the buffer that is not yet handed out.
@@ -241,6 +252,10 @@ impl<'s> Lines<'s> {
                 return Ok(None);
             }
             searched = self.to - self.from;
+            if searched > LONGEST {
+                let what = format!("a line of more than {LONGEST} bytes");
+                return Err(io::Error::new(io::ErrorKind::InvalidData, what));
+            }
             if !self.read_more()? {
                 self.ended = true;
                 let line = self.from..self.to;

@@ -210,6 +210,9 @@ pub struct PostArgs {
     /// Report the run time by CL word, section and FIL line; with a FILE also as a flame graph (SVG)
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
     pub profile: Option<Option<PathBuf>>,
+    /// List what scripts and INSERT changed, and judge the rest; with a FILE also as JSON
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    pub audit: Option<Option<PathBuf>>,
     /// A folder to look in for the option file that MACHIN names (may be given again)
     #[arg(long, value_name = "DIR")]
     pub post_path: Vec<PathBuf>,
@@ -410,6 +413,9 @@ pub struct VerifyArgs {
     /// How far the tip may leave its line during a rotary move; by default LINTOL of the CL file
     #[arg(long, value_name = "MM", value_parser = tolerance)]
     pub between: Option<f64>,
+    /// The line map of the run (`filpost post --map`): audit the program, scripts apart from the post
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["fil", "tol", "between", "allow_offset"])]
+    pub map: Option<PathBuf>,
     /// Work offsets that the program may use if the CL file names none: G54,G54.1P3
     #[arg(long, value_name = "OFFSETS", value_delimiter = ',', value_parser = work_offset)]
     pub allow_offset: Vec<u32>,

@@ -60,6 +60,8 @@ fn misused(args: &PostArgs) -> Option<&'static str> {
         Some("several programs need a folder, -o DIR")
     } else if args.listing.is_some() {
         Some("--listing names one file; post the CL files one by one for it")
+    } else if matches!(args.audit, Some(Some(_))) {
+        Some("--audit takes no name with several CL files")
     } else if args.profile.is_some() {
         Some("--profile takes the time of one run; post the CL files one by one for it")
     } else if matches!(args.map, Some(Some(_))) {
@@ -104,7 +106,7 @@ fn job(args: &PostArgs, cl: PathBuf) -> Job {
     let stem = ClName::of(&cl).map_or("program".to_string(), |name| name.stem);
     let output = folder.join(format!("{stem}.{NC}"));
     let map = args.map.as_ref().map(|_| post::beside(&output));
-    Job { cl, output: Some(output), listing: None, map }
+    Job { cl, output: Some(output), listing: None, map, audit: None }
 }
 
 /// The parts of the name of a CL file.

@@ -51,5 +51,9 @@ fil_diag::codes! {
         NoStudio = 812, Error, "the studio is not installed",
             "The studio is a program of its own, filpost-studio, which is neither beside this command nor in a folder of PATH.",
             "Install it: `cargo install --locked --path crates/filpost-studio`.";
+        /// `--audit` with a finding, or with `--deny audit` a change.
+        Audit = 813, Error, "the audit refuses this program",
+            "A block of the program has a fault or breaks a rule; with --deny audit, a script or INSERT has changed something too.",
+            "Correct what the audit names; without --audit the program is written as it is.";
     }
 }

@@ -15,6 +15,7 @@ use filpost::{Diag, Error, PendingFiles, Program, Report, files, select};
 use indicatif::ProgressBar;
 
 use crate::args::PostArgs;
+use crate::audit::{self, Both, Copies};
 use crate::errors::CommandCode;
 use crate::output::{self, Target, over_input};
 use crate::posts::{Built, Posts};
@@ -33,6 +34,8 @@ pub struct Job {
     pub listing: Option<PathBuf>,
     /// The line map.
     pub map: Option<PathBuf>,
+    /// The audit as JSON.
+    pub audit: Option<PathBuf>,
 }
 
 impl Job {
@@ -54,6 +57,8 @@ pub struct Outcome {
     pub warnings: Vec<Diag>,
     /// The run's report, or why there is no program.
     pub result: Result<Report, Error>,
+    /// What `--audit` found, in print.
+    pub audit: Vec<String>,
     /// How long it took.
     pub time: Duration,
 }
@@ -66,6 +71,7 @@ pub fn run(posts: &Posts<'_>, job: &Job, bar: Option<&ProgressBar>) -> Outcome {
         note: None,
         warnings: Vec::new(),
         result: Ok(Report::default()),
+        audit: Vec::new(),
         time: Duration::ZERO,
     };
     outcome.result = post(posts, job, bar, &mut outcome);
@@ -96,11 +102,12 @@ fn post(
     let mut listing = job.listing.as_ref().map(stage).transpose()?.map(Listing::new);
     let mut flames = picture.map(stage).transpose()?;
     let profile = args.profile.is_some().then(Arc::<Mutex<Profile>>::default);
+    let mut copies = args.audit.is_some().then(Copies::new).transpose()?;
+    let again = input.try_clone().map_err(|error| files::cant_read(&job.cl, &error))?;
+    let name = output::input_name(&job.cl);
+    let start = || audit::run_of(&program, &name, options, args.units.units);
 
-    let mut run = program.start().cl_name(&output::input_name(&job.cl)).reading(options);
-    if let Some(unit) = args.units.units {
-        run = run.units(unit);
-    }
+    let mut run = start();
     if let Some(listing) = &mut listing {
         run = run.observe(listing.observer());
     }
@@ -109,11 +116,16 @@ fn post(
         run = run.debug(&debugger);
     }
     let input = Watched { input, bar, at: 0, furthest: 0 };
-    let (report, pending) = match (&mut map, &job.map) {
-        (Some(map), Some(path)) => {
-            run.run_mapped(input, &mut nc, &names(&program, job, path), map)?
+    let seen = names(&program, job, job.map.as_deref().unwrap_or(Path::new("")));
+    let (report, pending) = match (&mut map, copies.as_mut().map(Copies::writers)) {
+        (Some(map), None) => run.run_mapped(input, &mut nc, &seen, map)?,
+        (None, None) => run.run_pending(input, &mut nc)?,
+        (Some(map), Some((nc_copy, map_copy))) => {
+            run.run_mapped(input, Both(&mut nc, nc_copy), &seen, &mut Both(map, map_copy))?
         }
-        _ => run.run_pending(input, &mut nc)?,
+        (None, Some((nc_copy, map))) => {
+            run.run_mapped(input, Both(&mut nc, nc_copy), &seen, map)?
+        }
     };
     let listing = match (listing, &job.listing) {
         (Some(listing), Some(path)) => {
@@ -121,13 +133,23 @@ fn post(
         }
         _ => None,
     };
-    let name = output::input_name(&job.cl);
     setup::confirm(&from, || Ok(report.machines.clone()), &name)?;
     let warnings = program.warnings().iter().chain(&report.warnings);
     outcome.warnings = warnings.cloned().collect();
     deny(args.deny_warnings, outcome.warnings.len())?;
     output::refuse_over(outputs(job, picture), report.script_reads.iter().map(PathBuf::as_path))?;
     refuse_scripts(job, posts.taken(), &inputs, &pending)?;
+    if let Some(copies) = copies {
+        let (found, lines) = copies.audit(start(), again, (&name, &seen.nc), &program)?;
+        outcome.audit = lines;
+        if let Some(path) = &job.audit {
+            let text = format!("{:#}\n", filpost::audit::as_json(&found));
+            Target::new(Some(path)).write(|out| {
+                out.write_all(text.as_bytes()).map_err(|error| files::cant_write(path, &error))
+            })?;
+        }
+        audit::deny(&found, args.reading.levels.denies_audit)?;
+    }
     let profile =
         profile.as_ref().map(|profile| profile.lock().unwrap_or_else(PoisonError::into_inner));
     if let (Some(flames), Some(profile), Some(path)) = (&mut flames, &profile, picture) {
@@ -143,7 +165,8 @@ fn post(
 
 /// Where the results of a job go.
 fn outputs<'p>(job: &'p Job, picture: Option<&'p PathBuf>) -> impl Iterator<Item = &'p Path> {
-    let others = job.listing.iter().chain(&job.map).chain(picture).map(PathBuf::as_path);
+    let others =
+        job.listing.iter().chain(&job.map).chain(&job.audit).chain(picture).map(PathBuf::as_path);
     [output::named(job.output.as_deref())].into_iter().chain(others)
 }
 

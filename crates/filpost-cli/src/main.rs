@@ -4,6 +4,7 @@
 //! 3 internal fault.
 
 mod args;
+mod audit;
 mod batch;
 mod check;
 mod cl;

@@ -43,6 +43,7 @@ fn one(args: &PostArgs, cl: &Path) -> Result<Status, Error> {
         output: args.output.clone(),
         listing: args.listing.clone(),
         map,
+        audit: args.audit.clone().flatten(),
     };
     let bar = bar(cl);
     let outcome = job::run(&Posts::new(args), &job, bar.as_ref());
@@ -77,6 +78,7 @@ pub fn tell(job: &Job, outcome: &Outcome) {
         output::say(&format!("note: {note}"));
     }
     summary::warnings(&outcome.warnings);
+    outcome.audit.iter().for_each(|line| output::say(line));
     let report = match &outcome.result {
         Ok(report) => report,
         Err(error) => return tell_earlier(job, error),

@@ -3,6 +3,7 @@
 use std::io::{Seek, Write};
 
 use filpost::cl::reader::Options;
+use filpost::map::{Digest, MapReader};
 use filpost::nc::decimals;
 use filpost::nc::source::Source;
 use filpost::nc::verify::{Allowed, Between, Finding, Report, Verdict};
@@ -11,7 +12,7 @@ use filpost::{Error, Program, files, select};
 
 use crate::args::{self, VerifyArgs};
 use crate::summary::counted;
-use crate::{Status, output, setup};
+use crate::{Status, audit, output, setup};
 
 /// Checks an NC program against its CL file.
 ///
@@ -22,8 +23,12 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     let nc = Source::file(output::open(&args.nc)?);
     let name = output::input_name(&args.nc);
     let (program, title) = program(args, &mut cl, (&nc, &name))?;
+    if let Some(map) = &args.map {
+        return audited(args, &program, cl, (nc, &name), map);
+    }
     let offsets = args.allow_offset.clone();
-    let allowed = Allowed { tolerance: args.tol, between: args.between, offsets };
+    let allowed =
+        Allowed { tolerance: args.tol, between: args.between, offsets, ..Allowed::default() };
     let mut run = program.start().cl_name(&output::input_name(&args.cl)).reading(options(args)?);
     if let Some(unit) = args.units.units {
         run = run.units(unit);
@@ -61,6 +66,35 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
         }
     }
     Ok(if report.verdict() == Verdict::Agrees { Status::Done } else { Status::Failed })
+}
+
+/// Audits the program with the line map of its run.
+fn audited(
+    args: &VerifyArgs,
+    program: &Program,
+    cl: std::fs::File,
+    (nc, nc_name): (Source<'_>, &str),
+    map: &std::path::Path,
+) -> Result<Status, Error> {
+    let cant = |error: std::io::Error| files::cant_read(&args.nc, &error);
+    let digest = Digest::of_reader(output::open(&args.nc)?).map_err(cant)?;
+    MapReader::open(map)?.nc().check(nc_name, &digest)?;
+    let name = output::input_name(&args.cl);
+    let run = audit::run_of(program, &name, options(args)?, args.units.units);
+    let found = run.audit(cl, (&nc, nc_name), &mut output::open(map)?)?;
+    match args.format {
+        args::Report::Json => {
+            let json = filpost::audit::as_json(&found);
+            output::print(format!("{json:#}\n").as_bytes())?;
+        }
+        args::Report::Text => {
+            let text = nc.in_page(program.nc_page());
+            let lines = audit::lines(&found, (&name, nc_name), &text)?;
+            output::print(format!("{}\n", lines.join("\n")).as_bytes())?;
+        }
+    }
+    let denies = args.reading.levels.denies_audit;
+    Ok(if audit::deny(&found, denies).is_ok() { Status::Done } else { Status::Failed })
 }
 
 fn options(args: &VerifyArgs) -> Result<Options, Error> {

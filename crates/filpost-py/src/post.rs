@@ -163,7 +163,7 @@ impl Post {
                 return Err(PyValueError::new_err(format!("{what} must be 0 or more")));
             }
         }
-        let allowed = Allowed { tolerance, between, offsets: offsets? };
+        let allowed = Allowed { tolerance, between, offsets: offsets?, ..Allowed::default() };
         let (input, name) = self.open(py, cl, &mut run)?;
         let started = self.start(&run, &name);
         let nc = NcProgram { text: &nc, name: nc_name };

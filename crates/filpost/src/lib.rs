@@ -20,6 +20,7 @@
 #![deny(missing_docs)]
 
 mod allow;
+pub mod audit;
 mod blocks;
 mod builder;
 mod cancel;

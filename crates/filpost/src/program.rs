@@ -7,12 +7,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fil_cl::{Record, Vocabulary};
-use fil_diag::Diag;
+use fil_diag::{Diag, Level, Levels};
 #[cfg(feature = "files")]
 use fil_machine::locations::Location;
 use fil_machine::{Commons, contradictions, tape_style};
 use fil_text::CodePage;
-use fil_vm::{Functions, Limits, Module};
+use fil_vm::{FilFile, Functions, Limits, LoadOptions, Module};
 
 use crate::blocks::Blocks;
 use crate::builder::Builder;
@@ -250,6 +250,38 @@ impl Program {
             clock: shared.clock,
             spawn: None,
             folders: shared.folders.clone(),
+        };
+        Ok(Program { shared: Arc::new(shared) })
+    }
+
+    /// The same machine without scripts, where records of these sections have no effect and no
+    /// doubt stops a run: what is doubtful without the script may be right with it.
+    ///
+    /// # Errors
+    /// A key that no section can have.
+    pub(crate) fn without_scripts(&self, sections: &[String]) -> Result<Program, Error> {
+        let mut levels = Levels::default();
+        levels.set_all(Level::Allow);
+        let sections = sections.iter().map(|key| format!("CIMFIL/ON,{key}\nCIMFIL/OFF\n"));
+        let text: String = sections.chain(["FINI\n".to_string()]).collect();
+        let file = FilFile { name: "", text: &text };
+        let files = if text.starts_with("FINI") { Vec::new() } else { vec![file] };
+        let mut vocabulary = Vocabulary::new();
+        let options = LoadOptions { levels: levels.clone(), ..LoadOptions::default() };
+        let loaded = fil_vm::load(&files, &mut vocabulary, options).map_err(Error::Setup)?;
+        let mut prototype = self.shared.prototype.clone();
+        prototype.control.warnings.levels = levels;
+        prototype.control.warnings.allowed_lines = Arc::default();
+        let shared = Shared {
+            prototype,
+            module: Arc::new(loaded.module),
+            vocabulary,
+            functions: Arc::default(),
+            limits: self.shared.limits,
+            warnings: Vec::new(),
+            clock: None,
+            spawn: None,
+            folders: None,
         };
         Ok(Program { shared: Arc::new(shared) })
     }

@@ -343,6 +343,19 @@ impl<'o> Run<'o> {
         self.cl_name.clone().unwrap_or_else(|| "CL".into())
     }
 
+    /// A run of another program that reads the same CL file in the same way, without observers.
+    pub(crate) fn of_program<'n>(&self, program: Program) -> Run<'n> {
+        Run {
+            program,
+            cl_name: self.cl_name.clone(),
+            reading: self.reading,
+            units: self.units,
+            cancel: self.cancel.clone(),
+            observers: Vec::new(),
+            debugger: None,
+        }
+    }
+
     fn begin(self, map: Option<map::Writer<'o>>, pass: Pass) -> Start<'o> {
         let (cl_name, raw) = (self.name(), self.reading.raw);
         let Run { program, units, cancel, observers, debugger, .. } = self;
@@ -362,16 +375,7 @@ impl<'o> Run<'o> {
         let start = cl.stream_position().map_err(cant)?;
         let reader = Reader::seekable(&mut *cl, &name, self.reading);
         let pass = Pass::First { counted: Box::default(), guessed: false };
-        let Run { program, reading, units, cancel, .. } = self;
-        let first = Run {
-            program: program.clone(),
-            cl_name: None,
-            reading: *reading,
-            units: *units,
-            cancel: cancel.clone(),
-            observers: Vec::new(),
-            debugger: None,
-        };
+        let first = self.of_program(self.program.clone());
         let found =
             Engine::new(first.begin(None, pass), Stream::Cl(Box::new(reader)), false).count();
         cl.seek(SeekFrom::Start(start)).map_err(cant)?;

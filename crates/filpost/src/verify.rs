@@ -28,6 +28,7 @@ use crate::spool::{Spool, into_source, spool};
 use crate::units;
 
 pub use json::as_json;
+pub(crate) use json::finding_as_json;
 
 /// Bytes that are kept in memory of a text that is read twice; more lie in a file.
 const IN_MEMORY: usize = 1 << 20;
@@ -112,7 +113,7 @@ impl Run<'_> {
     }
 
     /// A CL file that can be read twice, at its start.
-    fn spool(&self, cl: &mut dyn Read) -> Result<Spool, Error> {
+    pub(crate) fn spool(&self, cl: &mut dyn Read) -> Result<Spool, Error> {
         let mut text = spool(IN_MEMORY);
         let spooled = io::copy(cl, &mut text).and_then(|_| text.rewind());
         spooled.map_err(|error| files::cant_read(self.name().as_ref(), &error))?;

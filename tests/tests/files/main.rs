@@ -1,6 +1,7 @@
 //! Tests that are files: each file of the corpus, of a suite or of the how-to pages is a
 //! test of its own. `cargo test -p filpost-tests --test files words/` runs those of a suite.
 
+mod audit;
 mod corpus;
 mod diff;
 mod howto;
@@ -12,6 +13,7 @@ use libtest_mimic::Arguments;
 
 fn main() {
     let suites = [
+        audit::trials,
         corpus::trials,
         diff::trials,
         howto::trials,

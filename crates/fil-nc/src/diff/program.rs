@@ -15,7 +15,7 @@ use super::Options;
 use super::language::read_into;
 use super::modal::{Modal, group, tenths};
 use crate::dialect::Family;
-use crate::source::{Lines, Source, changed};
+use crate::source::{Lines, Source, changed, unreadable};
 use crate::text::{Block, Word};
 
 /// Steps of a unit of length that the alignment tells apart.
@@ -106,7 +106,7 @@ impl Program {
         name: &str,
         options: &Options,
     ) -> Result<Self, Box<Diag>> {
-        let cant = |error: io::Error| Box::new(changed(name, &error.to_string()));
+        let cant = |error: io::Error| Box::new(unreadable(name, &error));
         let source = source.into_page(options.page);
         let family = Family::of(&source).map_err(cant)?;
         let mut index = Index { family, tokens: Vec::new(), checkpoints: Vec::new() };
@@ -274,8 +274,7 @@ impl<'p> Walk<'p> {
     /// Takes the next line up; false when it is empty, or there is none.
     fn next_line(&mut self) -> Result<bool, Box<Diag>> {
         let Walk { lines, name, family, options, number, line, ended } = self;
-        let text =
-            lines.next_line().map_err(|error| Box::new(changed(name, &error.to_string())))?;
+        let text = lines.next_line().map_err(|error| Box::new(unreadable(name, &error)))?;
         let Some(text) = text else {
             *ended = true;
             return Ok(false);

@@ -6,7 +6,7 @@ use super::align::Run;
 use super::pair::{self, Found};
 use super::program::{Cursor, Program};
 use super::{Comparison, Options};
-use crate::source::changed;
+use crate::source::unreadable;
 
 /// Compares along the runs of an alignment.
 ///
@@ -37,7 +37,7 @@ pub(super) fn compare(
 /// first run, as many as end at a checkpoint; their number.
 fn skip_common(first: &Program, second: &Program, runs: &mut [Run]) -> Result<usize, Box<Diag>> {
     let common = first.source.common(&second.source);
-    let (bytes, _) = common.map_err(|error| changed(second.name(), &error.to_string()))?;
+    let (bytes, _) = common.map_err(|error| unreadable(second.name(), &error))?;
     let Some(run) = runs.first_mut().filter(|run| run.at == [Some(0), Some(0)]) else {
         return Ok(0);
     };

@@ -38,7 +38,7 @@ use crate::dialect::{Dialect, Family};
 use crate::errors::NcCode;
 use crate::events::Events;
 use crate::motion::Event;
-use crate::source::{Lines, Source, changed};
+use crate::source::{Lines, Source, unreadable};
 
 pub(crate) use sinumerik::line as sinumerik_words;
 pub(crate) use sinumerik::number_of_tool;
@@ -180,7 +180,7 @@ pub fn has_skipped_blocks(
 
 /// E0915
 fn cant_read(name: &str, error: &io::Error) -> Box<Diag> {
-    Box::new(changed(name, &error.to_string()))
+    Box::new(unreadable(name, error))
 }
 
 /// The events of a whole program.

@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 use fil_diag::Diag;
 
 use crate::dialect::{Marks, SKIP};
-use crate::source::{Lines, Source, changed};
+use crate::source::{Lines, Source, unreadable};
 
 /// Texts of INSERT that were looked for to the end of the program without being there;
 /// for one more than these only so many lines are read.
@@ -196,7 +196,7 @@ impl Firsts {
 }
 
 fn next<'l>(lines: &'l mut Lines<'_>, name: &str) -> Result<Option<&'l [u8]>, Box<Diag>> {
-    lines.next_line().map_err(|error| Box::new(changed(name, &error.to_string())))
+    lines.next_line().map_err(|error| Box::new(unreadable(name, &error)))
 }
 
 fn sorted<'b>(blocks: impl Iterator<Item = &'b Vec<u8>>) -> Vec<String> {

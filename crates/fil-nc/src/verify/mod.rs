@@ -113,6 +113,9 @@ pub struct Allowed {
     /// Work offsets (see [`FrameModes::fixture`](crate::motion::FrameModes::fixture)) that the program
     /// may choose where the CL file names none.
     pub offsets: Vec<u32>,
+    /// Lines of the CL file whose records are not asked for, in order: no program without
+    /// scripts can have them.
+    pub without: Vec<u32>,
 }
 
 /// Compares a program with the CL file it should come from.
@@ -133,6 +136,7 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
         path.turning(settings.is_lathe()).with_edges(settings.dialect.family == Family::Sinumerik);
     let path = path.naming_tools(settings.dialect.has(Habit::NamesTools));
     let path = path.in_unit(check.unit).leaving_out(check.skips_blocks);
+    let path = path.without(check.allowed.without.clone());
     let nc = (check.nc, check.nc_name);
     let (around, marks) = (settings.blocks_around_changes(), &settings.dialect.text.marks);
     let own = OwnBlocks::new(nc, marks, &settings.own_blocks(), &around)?;

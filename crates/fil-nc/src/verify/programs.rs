@@ -22,7 +22,7 @@ use super::window::Window;
 use crate::diff;
 use crate::events::Events;
 use crate::motion::{Course, Event, Modes, Move, Rate};
-use crate::source::{Lines, Source, changed};
+use crate::source::{Lines, Source, unreadable};
 
 /// How far to look for the place where two programs agree again.
 const LOOK_AHEAD: usize = 16;
@@ -120,7 +120,7 @@ pub fn compare_words(
     let tolerance = tolerance.unwrap_or(0.0) + DUST;
     let options = diff::Options { tolerance, ignore, ..diff::Options::default() };
     let mut report = Report::default();
-    let cant = |error: io::Error| changed(name, &error.to_string());
+    let cant = |error: io::Error| unreadable(name, &error);
     let kept = reference.again().map_err(cant)?;
     let compared = match diff::read_source(kept, "the second run", &options) {
         Ok(reference) => {

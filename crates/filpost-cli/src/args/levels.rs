@@ -8,6 +8,8 @@ use filpost::{Level, LevelOf, Levels};
 pub struct LevelArgs {
     /// What the options set.
     pub levels: Levels,
+    /// A change that `--audit` lists refuses the program.
+    pub denies_audit: bool,
 }
 
 fn help(level: Level) -> &'static str {
@@ -15,13 +17,25 @@ fn help(level: Level) -> &'static str {
         Level::Allow => "Do not report a warning or doubt: its code, or `all` (may be given again)",
         Level::Warn => "Report a doubt as a warning: its code, or `all` (may be given again)",
         Level::Deny => {
-            "Refuse the program for a warning or doubt: its code, or `all` (may be given again)"
+            "Refuse the program for a warning or doubt: its code, or `all`; for a change that --audit \
+             lists: `audit` (may be given again)"
         }
     }
 }
 
-fn level_of(name: &str) -> Result<LevelOf, String> {
-    LevelOf::named(name).map_err(|diag| match &diag.hint {
+/// What a level is given to.
+#[derive(Clone, Copy, Debug)]
+enum Named {
+    Code(LevelOf),
+    /// The changes that `--audit` lists.
+    Audit,
+}
+
+fn named(name: &str) -> Result<Named, String> {
+    if name == "audit" {
+        return Ok(Named::Audit);
+    }
+    LevelOf::named(name).map(Named::Code).map_err(|diag| match &diag.hint {
         Some(hint) => format!("{}; {hint}", diag.message),
         None => diag.message,
     })
@@ -37,12 +51,17 @@ impl FromArgMatches for LevelArgs {
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
         let mut said = Vec::new();
         for level in Level::ALL {
-            let codes = matches.get_many::<LevelOf>(level.name()).into_iter().flatten();
+            let codes = matches.get_many::<Named>(level.name()).into_iter().flatten();
             let places = matches.indices_of(level.name()).into_iter().flatten();
             said.extend(places.zip(codes).map(|(place, code)| (place, *code, level)));
         }
         said.sort_by_key(|(place, ..)| *place);
-        said.into_iter().for_each(|(_, code, level)| code.set(&mut self.levels, level));
+        for (_, named, level) in said {
+            match named {
+                Named::Code(code) => code.set(&mut self.levels, level),
+                Named::Audit => self.denies_audit = level == Level::Deny,
+            }
+        }
         Ok(())
     }
 }
@@ -51,7 +70,7 @@ impl Args for LevelArgs {
     fn augment_args(command: Command) -> Command {
         Level::ALL.into_iter().fold(command, |command, level| {
             let arg = Arg::new(level.name()).long(level.name()).value_name("CODE");
-            command.arg(arg.action(ArgAction::Append).value_parser(level_of).help(help(level)))
+            command.arg(arg.action(ArgAction::Append).value_parser(named).help(help(level)))
         })
     }
 

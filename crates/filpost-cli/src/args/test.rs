@@ -35,6 +35,9 @@ pub struct TestArgs {
     /// changes that no case notices
     #[arg(long, conflicts_with = "update")]
     pub mutate: bool,
+    /// List what scripts and INSERT changed in each case, and judge the rest
+    #[arg(long, conflicts_with = "mutate")]
+    pub audit: bool,
     /// Run only every Nth case, starting with the Ith (1/4), to share them among computers
     #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["coverage", "mutate"])]
     pub shard: Option<Shard>,

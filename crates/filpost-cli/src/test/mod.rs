@@ -15,13 +15,14 @@ use filpost::case::{self, Case, Outcome, Programs};
 use filpost::coverage::Recorder;
 use filpost::debug::SharedDebugger;
 use filpost::locations::{Location, TABLE};
+use filpost::nc::source::Source;
 use filpost::{Diag, Error, PendingFiles, files};
 use indicatif::{ParallelProgressIterator, ProgressBar};
 use rayon::prelude::*;
 
 use crate::args::{Shard, TestArgs};
 use crate::errors::CommandCode;
-use crate::{Status, output};
+use crate::{Status, audit, output};
 
 /// A case that was run.
 struct Done {
@@ -31,6 +32,8 @@ struct Done {
     /// What of FIL has run, where that was looked at.
     recorder: Recorder,
     time: Duration,
+    /// What its audit found, in print, where it was asked for.
+    audit: Vec<String>,
 }
 
 /// Runs the regression cases below a folder, or makes a case.
@@ -57,6 +60,7 @@ pub fn run(args: &TestArgs) -> Result<Status, Error> {
         .into_par_iter()
         .progress_with(progress)
         .map(|case| run_case(&folder, case, &programs, looks_on))
+        .map(|done| if args.audit { audited(done, &programs) } else { done })
         .collect();
     refuse_over_reads(args, &done, &programs)?;
     let mut written = PendingFiles::default();
@@ -135,14 +139,39 @@ fn run_case(root: &Path, case: Case, programs: &Programs, looks_on: bool) -> Don
     let below = if below.as_os_str().is_empty() { &case.folder } else { below };
     let name = below.display().to_string().replace('\\', "/");
     let recorder = recorder.lock().unwrap_or_else(PoisonError::into_inner).clone();
-    Done { name, case, outcome, recorder, time: start.elapsed() }
+    Done { name, case, outcome, recorder, time: start.elapsed(), audit: Vec::new() }
+}
+
+/// The same case with the audit of its program; a finding fails a case that has passed.
+fn audited(mut done: Done, programs: &Programs) -> Done {
+    if done.case.file.expect_error.is_some() {
+        return done;
+    }
+    let audited = programs.get(&done.case).and_then(|program| {
+        let (audit, nc) = done.case.audit(&program)?;
+        let names = (done.case.file.cl.as_str(), done.name.as_str());
+        let text = Source::memory(&nc);
+        let lines = audit::lines(&audit, names, &text.in_page(program.nc_page()))?;
+        Ok((lines, audit::deny(&audit, false).is_err()))
+    });
+    let (lines, fails) =
+        audited.unwrap_or_else(|error: Error| (vec![format!("{}: {error}", done.name)], true));
+    if fails && done.outcome.failure.is_none() {
+        done.outcome.failure = Some(lines.join("\n"));
+    } else {
+        done.audit = lines;
+    }
+    done
 }
 
 /// Tells how each case ended, in the order of their folders; expected files are made anew among
 /// those of `updated`.
 fn say(done: &[Done], mut updated: Option<&mut PendingFiles>) -> Result<usize, Error> {
     let mut failed = 0;
-    for Done { case, outcome, .. } in done {
+    for Done { case, outcome, audit, .. } in done {
+        if !audit.is_empty() {
+            output::print(format!("{}\n", audit.join("\n")).as_bytes())?;
+        }
         let Some(failure) = &outcome.failure else { continue };
         let fresh = updated.as_mut().filter(|_| !outcome.fresh.is_empty());
         let word = if fresh.is_some() { "UPDATED" } else { "FAILED" };

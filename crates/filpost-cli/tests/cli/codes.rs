@@ -24,6 +24,7 @@ const TESTED: &[(&str, &str, &str)] = &[
     ("E0810", include_str!("making_cases.rs"), "a_folder_that_cant_be_part_of_a_case_is_refused"),
     ("E0811", include_str!("machine.rs"), "a_machine_is_shown_by_its_name_alone"),
     ("E0812", include_str!("studio.rs"), "without_its_program_it_says_how_to_get_it"),
+    ("E0813", include_str!("../audit.rs"), "a_change_is_refused_where_it_is_denied"),
 ];
 
 /// What `filpost explain` says of each code there is, by its name.

@@ -7,14 +7,17 @@ use fil_cl::reader;
 use fil_diag::Diag;
 use fil_machine::locations::Location;
 use fil_nc::diff;
+use fil_nc::source::Source;
 use fil_text::CodePage;
 
 use super::recipe::Recipe;
 use super::{Case, CaseFile, Programs, unified};
+use crate::audit::Audit;
 use crate::debug::SharedDebugger;
 use crate::error::Error;
 use crate::files;
 use crate::listing::Listing;
+use crate::map::Names;
 use crate::pending::{NewFile, PendingFiles};
 use crate::program::Program;
 use crate::run::Run;
@@ -190,6 +193,20 @@ impl Case {
             Some(unit) => run.units(unit),
             None => run,
         }
+    }
+
+    /// Posts the case's CL file and audits the program, which is given too.
+    ///
+    /// # Errors
+    /// As [`Run::run`] and [`Run::audit`].
+    pub fn audit(&self, program: &Program) -> Result<(Audit, Vec<u8>), Error> {
+        let cl = self.cl_text()?;
+        let names = Names { fil: program.fil_files(), ..Names::default() };
+        let (mut nc, mut map) = (Vec::new(), Vec::new());
+        self.start(program).run_mapped(Cursor::new(&cl), &mut nc, &names, &mut map)?;
+        let source = (&Source::memory(&nc), "the program of the case");
+        let audit = self.start(program).audit(&cl[..], source, &mut Cursor::new(map))?;
+        Ok((audit, nc))
     }
 
     fn run_whole(

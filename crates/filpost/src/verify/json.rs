@@ -14,14 +14,6 @@ pub fn as_json(report: &Report, reference: Reference) -> Value {
     };
     let peak = |peak: &Peak| json!({ "max": peak.max, "nc_line": peak.nc_line });
     let between = |between: &Between| json!({ "position": peak(&between.position), "axis": peak(&between.axis) });
-    let finding = |finding: &Finding| {
-        json!({
-            "kind": finding.kind.name(),
-            "nc_line": finding.nc_line,
-            "cl_line": finding.cl_line,
-            "message": finding.message,
-        })
-    };
     let open = |open: &Unverified| json!({ "cl_line": open.cl_line, "what": open.what });
     json!({
         "verdict": match report.verdict() {
@@ -33,7 +25,7 @@ pub fn as_json(report: &Report, reference: Reference) -> Value {
             Reference::ClFile => "cl-file",
             Reference::SecondRun => "second-run",
         },
-        "findings": report.findings.iter().map(finding).collect::<Value>(),
+        "findings": report.findings.iter().map(finding_as_json).collect::<Value>(),
         "more": report.more,
         "not_compared": report.unverified.iter().map(open).collect::<Value>(),
         "more_not_compared": report.more_unverified,
@@ -41,5 +33,15 @@ pub fn as_json(report: &Report, reference: Reference) -> Value {
         "position": deviation(&report.position),
         "axis": deviation(&report.axis),
         "between": report.between.as_ref().map(between),
+    })
+}
+
+/// A finding as one object.
+pub(crate) fn finding_as_json(finding: &Finding) -> Value {
+    json!({
+        "kind": finding.kind.name(),
+        "nc_line": finding.nc_line,
+        "cl_line": finding.cl_line,
+        "message": finding.message,
     })
 }

@@ -124,6 +124,20 @@ fn e0915_program_changes_while_compared() {
 }
 
 #[test]
+fn e0916_line_without_an_end() {
+    let long = "X1. ".repeat(1 << 19);
+    let nc = format!("%\nO1\nG21 {long}\nM30\n");
+    let source = filpost::nc::source::Source::memory(nc.as_bytes());
+    let error = source.lines("long.nc", &[4]).expect_err("refused");
+    assert_eq!(error.code.name(), "E0916");
+    let program = Program::builder().ready("fanuc-mill").build().expect("a post");
+    let nc = filpost::verify::NcProgram { text: nc.as_bytes(), name: "long.nc" };
+    let cl = "UNITS / MM\nFINI\n".as_bytes();
+    let refused = program.start().verify(cl, nc, Default::default()).expect_err("refused");
+    assert_eq!(names(&refused), ["E0916"]);
+}
+
+#[test]
 fn e0702_output_is_a_folder() {
     let shop = Shop::new();
     let error = post_file(&shop.path("part.ncl"), shop.folder.path()).expect_err("refused");

@@ -53,6 +53,7 @@ const TESTED_HERE: &[(&str, &str)] = &[
     ("W0757", "w0757_choice_against_the_signs"),
     ("E0717", "e0717_program_too_long"),
     ("E0915", "e0915_program_changes_while_compared"),
+    ("E0916", "e0916_line_without_an_end"),
     ("E0940", "e0940_unit_not_known"),
     ("E0941", "e0941_another_part"),
 ];

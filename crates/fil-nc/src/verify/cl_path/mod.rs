@@ -116,6 +116,8 @@ pub struct ClPath<'r> {
     ready: VecDeque<Step>,
     over: bool,
     skip: Opskip,
+    /// Lines whose records are passed over, in order.
+    without: Vec<u32>,
 }
 
 impl<'r> ClPath<'r> {
@@ -150,6 +152,7 @@ impl<'r> ClPath<'r> {
             ready: VecDeque::new(),
             over: false,
             skip: Opskip::default(),
+            without: Vec::new(),
         }
     }
 
@@ -175,6 +178,12 @@ impl<'r> ClPath<'r> {
     /// OPSKIP/ON and OPSKIP/OFF only what holds on is asked for.
     pub fn leaving_out(mut self, leaves_out: bool) -> Self {
         self.skip.leaves_out = leaves_out;
+        self
+    }
+
+    /// The path without the records of these lines, which are in order.
+    pub fn without(mut self, lines: Vec<u32>) -> Self {
+        self.without = lines;
         self
     }
 
@@ -222,6 +231,9 @@ impl<'r> ClPath<'r> {
                 continue;
             }
             let line = self.record.line;
+            if self.without.binary_search(&line).is_ok() {
+                continue;
+            }
             self.require_unit()?;
             self.refuse_other_unit()?;
             if self.is_plain_motion() {

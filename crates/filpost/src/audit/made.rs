@@ -1,0 +1,121 @@
+//! The blocks of a program, each with what made it: the program beside its line map.
+
+use std::io::{Read, Seek};
+
+use fil_nc::source::{Lines, Source, unreadable};
+use fil_post::Cause;
+
+use crate::error::Error;
+use crate::map::{Entry, MapReader};
+
+/// A word of a block.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Word {
+    /// As it is written.
+    pub text: String,
+    /// Its letter; `_` for a text.
+    pub letter: char,
+    /// The FIL call stack that caused it; 0 for none.
+    pub stack: u32,
+}
+
+impl Word {
+    /// Its number, for an address with one.
+    pub fn number(&self) -> Option<f64> {
+        let number = self.text.strip_prefix(self.letter)?.replace(',', ".");
+        number.parse().ok()
+    }
+}
+
+/// A block and what made it.
+#[derive(Clone, Debug)]
+pub(super) struct Made {
+    /// Line of the program, 1-based.
+    pub nc_line: u32,
+    /// What made it.
+    pub cause: Cause,
+    /// Its words without the sequence number.
+    pub words: Vec<Word>,
+}
+
+impl Made {
+    /// Both have the same words.
+    pub fn is_as(&self, other: &Made) -> bool {
+        let texts =
+            |made: &Made| made.words.iter().map(|word| word.text.clone()).collect::<Vec<_>>();
+        self.words.len() == other.words.len() && texts(self) == texts(other)
+    }
+
+    /// Its words, as they are written.
+    pub fn text(&self) -> String {
+        self.words.iter().map(|word| word.text.as_str()).collect::<Vec<_>>().join(" ")
+    }
+
+    /// True where it has a word of one of these letters.
+    pub fn has(&self, letters: &str) -> bool {
+        self.words.iter().any(|word| letters.contains(word.letter))
+    }
+
+    /// The FIL call stack behind a word of it, or behind the block; 0 for none.
+    pub fn stack_of(&self, word: Option<&Word>) -> u32 {
+        word.map(|word| word.stack).filter(|stack| *stack != 0).unwrap_or(self.cause.stack)
+    }
+}
+
+/// The blocks of a program in their order.
+pub(super) struct Blocks<'s, R> {
+    pub map: MapReader<R>,
+    lines: Lines<'s>,
+    name: &'s str,
+    next: Option<Made>,
+}
+
+impl<'s, R: Read + Seek> Blocks<'s, R> {
+    /// Begins with the first block.
+    ///
+    /// # Errors
+    /// A map that is none, a program that can't be read.
+    pub fn new(map: R, map_name: &str, nc: (&'s Source<'s>, &'s str)) -> Result<Self, Error> {
+        let map = MapReader::new(map_name, map)?;
+        let mut blocks = Blocks { map, lines: Lines::from(nc.0, 0), name: nc.1, next: None };
+        blocks.next = blocks.read()?;
+        Ok(blocks)
+    }
+
+    /// The record of the next block; `None` at the end.
+    pub fn record(&self) -> Option<u32> {
+        self.next.as_ref().map(|made| made.cause.record)
+    }
+
+    /// The blocks up to the next one that another record made.
+    ///
+    /// # Errors
+    /// A map that is none, a program that can't be read.
+    pub fn of_record(&mut self) -> Result<Vec<Made>, Error> {
+        let record = self.record();
+        let mut found = Vec::new();
+        while self.record() == record {
+            let Some(made) = self.next.take() else { break };
+            found.push(made);
+            self.next = self.read()?;
+        }
+        Ok(found)
+    }
+
+    fn read(&mut self) -> Result<Option<Made>, Error> {
+        for entry in self.map.by_ref() {
+            let Entry::Line(line) = entry? else { continue };
+            let cant = |error: std::io::Error| unreadable(self.name, &error);
+            let text = self.lines.next_line().map_err(|error| Error::Run(Box::new(cant(error))))?;
+            let text = String::from_utf8_lossy(text.unwrap_or_default());
+            let words = line.words.iter().filter(|word| word.letter != '#').map(|word| Word {
+                text: word.text(&text).to_string(),
+                letter: word.letter,
+                stack: word.cause.stack,
+            });
+            let nc_line = u32::try_from(line.number).unwrap_or(u32::MAX);
+            return Ok(Some(Made { nc_line, cause: line.cause, words: words.collect() }));
+        }
+        Ok(None)
+    }
+}
