@@ -91,7 +91,7 @@ impl Diag {
         Diag {
             code,
             severity: code.severity(),
-            message: message.into(),
+            message: shortened(message.into()),
             spans: Vec::new(),
             hint: None,
             notes: Vec::new(),
@@ -122,7 +122,7 @@ impl Diag {
 
     /// Adds a further line.
     pub fn note(mut self, note: impl Into<String>) -> Self {
-        self.notes.push(note.into());
+        self.notes.push(shortened(note.into()));
         self
     }
 
@@ -149,6 +149,19 @@ impl std::fmt::Display for Diag {
 }
 
 impl std::error::Error for Diag {}
+
+/// Characters of a message or a note that are kept: it may quote a text of any length.
+const LONGEST: usize = 2000;
+
+/// A text without what nobody reads of it.
+fn shortened(mut text: String) -> String {
+    if let Some((cut, _)) = text.char_indices().nth(LONGEST) {
+        let more = text[cut..].chars().count();
+        text.truncate(cut);
+        text.push_str(&format!(" … ({more} characters more)"));
+    }
+    text
+}
 
 /// The reason of a code or a setting as a table holds it: none in WebAssembly, where a module is
 /// loaded for each page, and all reasons stand in the book.

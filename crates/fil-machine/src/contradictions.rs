@@ -28,6 +28,8 @@ use crate::osp_lengths;
 use crate::rotary_feed_rules;
 use crate::setting::CodeAt;
 
+pub use travel::unchecked;
+
 /// Farthest that the end of an arc may be corrected, mm or inch.
 const MOST_CORRECTION: f64 = 1.0;
 

@@ -12,6 +12,7 @@ mod last_run;
 mod preview;
 mod server;
 mod uri;
+mod wire;
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -27,10 +28,12 @@ pub use server::{Fault, Server};
 /// # Errors
 /// What went wrong with the connection, in a sentence.
 pub fn serve_stdio() -> Result<(), String> {
-    let (connection, threads) = Connection::stdio();
-    serve(&connection)?;
+    let (connection, editor) = Connection::memory();
+    let threads = wire::threads(editor);
+    let served = serve(&connection);
     drop(connection);
-    threads.join().map_err(|error| error.to_string())
+    // What ended the input says more than that the connection has ended.
+    if served.is_err() && !threads.input_has_ended() { served } else { threads.join().and(served) }
 }
 
 /// Serves one editor over a connection.

@@ -116,6 +116,10 @@ pub(crate) fn commons_with(
     if !errors.is_empty() {
         return Err(errors);
     }
+    // An option file has the travel of its machine, whether or not it is asked for.
+    if !matches!(machine, Machine::OptionFile { .. }) {
+        warnings.extend(contradictions::unchecked(&commons));
+    }
     Ok((commons, warnings))
 }
 

@@ -1,13 +1,25 @@
-//! Travel of rotary axes in ranges and zones.
+//! Travel that nothing checks; travel of rotary axes in ranges and zones.
 
 use fil_diag::Diag;
 
 use super::contradiction;
 use crate::axis_chain::AxisChain;
 use crate::commons::Commons;
+use crate::errors::MachineCode;
 use crate::locations::{self as loc, TravelKind};
 use crate::mill_turn;
 use crate::zones::Zones;
+
+/// The warning of travel of X, Y or Z that is given and that nothing checks.
+pub fn unchecked(commons: &Commons) -> Option<Diag> {
+    let is_given = |at| commons.dbl_opt(at).is_some();
+    let axis =
+        loc::LINEAR_LIMITS.iter().position(|(low, high)| is_given(*low) || is_given(*high))?;
+    let name = ["X", "Y", "Z"][axis];
+    let message = format!("the travel of {name} is given, and limits.check = 0 checks none");
+    let diag = Diag::new(MachineCode::UnusedSetting, message).hint("Set limits.check = 1.");
+    (!commons.read(loc::LIMITS_CHECK)).then_some(diag)
+}
 
 /// Refuses ranges or zones of a rotary axis whose ends are not given or the wrong way round, and
 /// those of a mill-turn machine, on which nothing checks them.

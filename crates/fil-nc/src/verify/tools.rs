@@ -37,7 +37,8 @@ impl<C: Steps> Verifier<'_, C> {
         if !is_first {
             self.ask_auxiliary(cl_line, self.settings.stop_at_change());
         }
-        match self.units_to_tool_change() {
+        let is_of_later = self.is_of_a_later_change(number);
+        match self.units_to_tool_change().filter(|units| *units == 0 || !is_of_later) {
             Some(left_out) => self.extra(left_out, cl_line),
             None => {
                 let message = format!("no change to tool {number}");
@@ -88,6 +89,11 @@ impl<C: Steps> Verifier<'_, C> {
             Some(Event::ToolChange { tool, .. }) => Some(tool),
             _ => None,
         }
+    }
+
+    /// The change that comes next is to a tool that the CL file changes to later.
+    fn is_of_a_later_change(&mut self, number: u32) -> bool {
+        self.next_tool().is_some_and(|tool| tool != number && self.tool_comes(tool))
     }
 
     /// Motions and holes before the next tool change, if it comes soon.

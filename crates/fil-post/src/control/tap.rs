@@ -8,7 +8,7 @@
 use fil_diag::Result;
 use fil_machine::commons::EMPTY;
 use fil_machine::letters::S;
-use fil_machine::locations as loc;
+use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::FeedMode;
 use fil_machine::rounding::Rounding;
 
@@ -65,8 +65,15 @@ pub fn a_minute(control: &Control, cycle: &Cycle) -> Result<f64> {
     Ok(feed)
 }
 
+/// F of a tap counts minutes, as the machine has no code for a feed per revolution.
+pub fn counts_minutes(control: &Control) -> bool {
+    let is_lacking = control.code_if_any(loc::FEED_UPR_CODE).is_none();
+    let by_word_address = control.tables.family == ControlFamily::WordAddress;
+    is_lacking && by_word_address && !control.state.is(modal::FEED_MODE, FeedMode::PerRevolution)
+}
+
 /// The feed of a tap by a cycle of word address: a feed per minute at the speed on the tape, else
-/// the pitch.
+/// the pitch, or on a machine without a code for a feed per revolution what cuts it per minute.
 ///
 /// # Errors
 /// Constant surface speed, or a highest speed below that of the tap, where F counts minutes; and as
@@ -74,10 +81,11 @@ pub fn a_minute(control: &Control, cycle: &Cycle) -> Result<f64> {
 pub fn feed(control: &Control, cycle: &Cycle) -> Result<Feed> {
     let feed = match cycle.feed {
         CycleFeed::Feed(feed) if feed.mode == FeedMode::PerMinute => feed,
-        CycleFeed::Feed(feed) => return Ok(feed),
+        CycleFeed::Feed(feed) => return of_pitch(control, cycle, feed),
         CycleFeed::Lead(lead) => {
             let mode = FeedMode::PerRevolution;
-            return Ok(Feed { value: lead.value, asked: lead.value, mode, cause: lead.cause });
+            let feed = Feed { value: lead.value, asked: lead.value, mode, cause: lead.cause };
+            return of_pitch(control, cycle, feed);
         }
     };
     match control.spindle.speed {
@@ -95,6 +103,18 @@ pub fn feed(control: &Control, cycle: &Cycle) -> Result<Feed> {
             Ok(Feed { value: feed.asked, ..feed })
         }
     }
+}
+
+/// The feed of a tap whose pitch is named.
+///
+/// # Errors
+/// Where F counts minutes, as [`a_minute`].
+fn of_pitch(control: &Control, cycle: &Cycle, feed: Feed) -> Result<Feed> {
+    if !counts_minutes(control) {
+        return Ok(feed);
+    }
+    refuse_above_highest_speed(control)?;
+    Ok(Feed { value: a_minute(control, cycle)?, mode: FeedMode::PerMinute, ..feed })
 }
 
 /// The speed as the tape has it: within its range, rounded to the digits of S.

@@ -19,6 +19,7 @@ use crate::control::needs::Act;
 use crate::control::place::cross_unknown;
 use crate::control::sinumerik::live_tap;
 use crate::control::skip::refuse_level;
+use crate::control::tap;
 use crate::control::word_address::cycle as words;
 use crate::control::word_address::spindle;
 use crate::control::{Control, family};
@@ -160,14 +161,19 @@ fn refuse_without_depth(
 }
 
 /// Refuses a tap at a feed a minute behind another speed of the spindle: its lead would be another
-/// one than that of the holes before.
+/// one than that of the holes before. Where the lead is named and F counts minutes, F is said anew.
 fn refuse_another_lead(control: &Control, cycle: &mut Cycle) -> Result<()> {
-    let CycleFeed::Feed(feed) = cycle.feed else { return Ok(()) };
     let Some(SpindleSpeed::Revolutions(turns)) = control.spindle.speed else { return Ok(()) };
-    if feed.mode != FeedMode::PerMinute {
+    let is_a_minute =
+        matches!(cycle.feed, CycleFeed::Feed(feed) if feed.mode == FeedMode::PerMinute);
+    if !is_a_minute && !tap::counts_minutes(control) {
         return Ok(());
     }
     match cycle.turns.replace(turns) {
+        Some(before) if before != turns && !is_a_minute => {
+            cycle.in_force = None;
+            Ok(())
+        }
         Some(before) if before != turns => PostCode::CycleForm.err_with(
             format!(
                 "the spindle turns at {turns} where the holes before were tapped at {before}: at the \

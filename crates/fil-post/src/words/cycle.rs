@@ -72,6 +72,7 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
     let depth = depth.ok_or_else(|| PostCode::CycleForm.diag("DEPTH is missing"))?.abs();
     let Levels { clear, travel } = clearance(post, items, &mut words.clear)?;
     let step = step(post, items, kind, &mut words.step)?;
+    say_how_chips_break(post, items, kind)?;
     let returns = return_level(items)?;
     let retract = returns.or(travel);
     let all_rigid = post.control.commons.read(loc::CYCLE_TAP_RIGID);
@@ -267,6 +268,28 @@ fn step(post: &mut Post, items: &mut Items, kind: CycleKind, at: &mut u16) -> Re
         post.warn(PostCode::IgnoredPart, message);
     }
     Ok(step)
+}
+
+/// BACK, REV and TIMES of BRKCHP say how its chips are broken, which each control does in its own
+/// way.
+fn say_how_chips_break(post: &mut Post, items: &mut Items, kind: CycleKind) -> Result<()> {
+    if kind != CycleKind::Brkchp {
+        return Ok(());
+    }
+    for word in [w::BACK, w::REV, w::TIMES] {
+        let Some(value) = items.couplet(word)? else { continue };
+        let gap = post.control.commons.dbl_opt(loc::CYCLE_PECK_GAP);
+        if word == w::BACK && gap == Some(value) {
+            continue;
+        }
+        let name = items.name(word);
+        let message = format!(
+            "CYCLE/BRKCHP: {name} {value}; the control breaks chips in its own way, going back by \
+             cycle.peck_gap where the program says how far"
+        );
+        post.warn(PostCode::IgnoredPart, message);
+    }
+    Ok(())
 }
 
 /// The feed of a cycle holds on behind it where no FEDRAT came before: Creo writes none then, and

@@ -61,7 +61,7 @@ impl Default for Limits {
             call_depth: 64,
             array_elements: 1_000_000,
             text_bytes: 16 << 20,
-            output_bytes: 64 << 30,
+            output_bytes: 4 << 30,
         }
     }
 }
