@@ -12,39 +12,94 @@ use crate::{output, render};
 /// Different warnings that are shown.
 const MOST: usize = 20;
 
-/// Shows warnings on standard error: the first of a code in full, further ones
-/// of that code in a line each, the same one only once with a count.
+/// Shows warnings on standard error: the first of a code in full, further ones of that code in
+/// a line each. Those that differ by their numbers alone are of one kind, and come once.
 pub fn warnings<'a>(warnings: impl IntoIterator<Item = &'a Diag>) {
-    let groups = grouped(warnings);
+    let kinds = kinds(warnings);
     let mut codes = HashSet::new();
-    for (diag, count) in groups.iter().take(MOST) {
-        let times = if *count > 1 { format!("this warning came {count} times") } else { "".into() };
-        if codes.insert(diag.code.number) {
-            let mut shown = (*diag).clone();
-            shown.notes.extend((!times.is_empty()).then_some(times));
+    for kind in kinds.iter().take(MOST) {
+        let more = kind.more();
+        if codes.insert(kind.shown.code.number) {
+            let mut shown = kind.shown.clone();
+            shown.notes.extend(more);
             render::to_stderr(&shown);
         } else {
-            let times = if times.is_empty() { times } else { format!(" ({times})") };
-            output::say(&format!("{diag}{times}"));
+            let more = more.map(|more| format!(" ({more})")).unwrap_or_default();
+            output::say(&format!("{}{more}", kind.shown));
         }
     }
-    if groups.len() > MOST {
-        output::say(&format!("and {} more", counted((groups.len() - MOST) as u64, "warning")));
+    if kinds.len() > MOST {
+        output::say(&format!("and {} more", counted((kinds.len() - MOST) as u64, "warning")));
     }
 }
 
-/// Warnings of the same code and words, at their first place, with their number.
-fn grouped<'a>(warnings: impl IntoIterator<Item = &'a Diag>) -> Vec<(&'a Diag, usize)> {
-    let mut groups: Vec<(&Diag, usize)> = Vec::new();
+/// Warnings of one code whose words are the same but for numbers.
+struct Kind<'a> {
+    /// The first one, or that with the largest measure.
+    shown: &'a Diag,
+    /// The others.
+    others: Vec<&'a Diag>,
+}
+
+impl Kind<'_> {
+    /// What is said of the others.
+    fn more(&self) -> Option<String> {
+        /// Lines that are listed.
+        const LISTED: usize = 8;
+        let count = self.others.len();
+        if count == 0 {
+            return None;
+        }
+        if self.others.iter().all(|other| other.message == self.shown.message) {
+            return Some(format!("this warning came {} times", count + 1));
+        }
+        let mut lines: Vec<u32> = self.others.iter().filter_map(|other| line_of(other)).collect();
+        lines.sort_unstable();
+        lines.dedup();
+        let mut text = format!("and {count} more of this kind");
+        if !lines.is_empty() {
+            let shown: Vec<String> = lines.iter().take(LISTED).map(u32::to_string).collect();
+            let noun = if lines.len() == 1 { "line" } else { "lines" };
+            text += &format!(", {noun} {}", shown.join(", "));
+        }
+        if lines.len() > LISTED {
+            text.push_str(", …");
+        }
+        Some(text)
+    }
+}
+
+fn line_of(diag: &Diag) -> Option<u32> {
+    diag.spans.first().map(|span| span.line).filter(|line| *line > 0)
+}
+
+/// The kinds of warnings, in the order in which they come first.
+fn kinds<'a>(warnings: impl IntoIterator<Item = &'a Diag>) -> Vec<Kind<'a>> {
+    let mut kinds: Vec<Kind<'_>> = Vec::new();
     let mut known = HashMap::new();
     for diag in warnings {
-        let index = *known.entry((diag.code.number, diag.message.as_str())).or_insert(groups.len());
-        match groups.get_mut(index) {
-            Some((_, count)) => *count += 1,
-            None => groups.push((diag, 1)),
-        }
+        let key = (diag.code.number, without_numbers(&diag.message));
+        let index = *known.entry(key).or_insert(kinds.len());
+        let Some(kind) = kinds.get_mut(index) else {
+            kinds.push(Kind { shown: diag, others: Vec::new() });
+            continue;
+        };
+        let is_larger = measure(&diag.message) > measure(&kind.shown.message);
+        let other = if is_larger { std::mem::replace(&mut kind.shown, diag) } else { diag };
+        kind.others.push(other);
     }
-    groups
+    kinds
+}
+
+fn without_numbers(message: &str) -> String {
+    message.chars().filter(|letter| !letter.is_ascii_digit()).collect()
+}
+
+/// The first number with decimals: what is whole counts or names something.
+fn measure(message: &str) -> Option<f64> {
+    let is_of_number = |letter: char| letter.is_ascii_digit() || letter == '.';
+    let numbers = message.split(|letter| !is_of_number(letter));
+    numbers.filter(|text| text.trim_matches('.').contains('.')).find_map(|text| text.parse().ok())
 }
 
 /// The line at the end of a run: post, blocks, warnings, extents, dialect, time.
@@ -108,10 +163,32 @@ mod tests {
     }
 
     #[test]
-    fn the_same_warning_is_one_group() {
+    fn warnings_that_differ_by_numbers_are_one_kind() {
+        let warning = |line: u32, message: &str| {
+            let place = filpost::TextSpan::line("part.ncl", line, "");
+            Diag::new(filpost::RunCode::NoFini, message).at(place)
+        };
+        let list = [
+            warning(3, "the tip is 1.250 below its line"),
+            warning(4, "tool 2: no speed"),
+            warning(9, "the tip is 36.647 below its line"),
+            warning(12, "tool 4: no speed"),
+            warning(30, "the tip is 4.000 below its line"),
+        ];
+        let kinds = kinds(&list);
+        let shown: Vec<&str> = kinds.iter().map(|kind| &kind.shown.message[..]).collect();
+        assert_eq!(shown, ["the tip is 36.647 below its line", "tool 2: no speed"]);
+        assert_eq!(kinds[0].more().unwrap(), "and 2 more of this kind, lines 3, 30");
+        assert_eq!(kinds[1].more().unwrap(), "and 1 more of this kind, line 12");
+    }
+
+    #[test]
+    fn the_same_warning_is_counted() {
         let warning = |message: &str| Diag::new(filpost::RunCode::NoFini, message);
         let list = [warning("a"), warning("b"), warning("a")];
-        let counts: Vec<usize> = grouped(&list).iter().map(|(_, count)| *count).collect();
-        assert_eq!(counts, [2, 1]);
+        let kinds = kinds(&list);
+        assert_eq!(kinds.len(), 2);
+        assert_eq!(kinds[0].more().unwrap(), "this warning came 2 times");
+        assert_eq!(kinds[1].more(), None);
     }
 }
