@@ -32,7 +32,8 @@ pub struct Converted {
 ///
 /// Words that the dialect gives no effect become records `$$-> WORD / …`, and texts without
 /// effect become comments; FINI comes at the end where the dialect writes none. Comments of
-/// the text are left out. `unit` is MM or INCHES, to be written where the text says no unit.
+/// the text are left out. `unit` is MM or INCHES, to be written where the text says no unit; what the
+/// feeds tell ([`Reader::told_unit`]) takes its place where it is not given.
 ///
 /// ```
 /// use std::io::Cursor;
@@ -66,6 +67,7 @@ pub fn to_ncl(
     output.write_all(HEADER).map_err(|error| write_failed(&error))?;
     let mut writer = Writer::new(io::BufWriter::new(&mut output));
     let mut statements = 0;
+    let unit = unit.or_else(|| reader.told_unit());
     Statements::new(unit).all(&mut reader, &mut vocabulary, |record, vocabulary| {
         statements += 1;
         write(&mut writer, record, vocabulary).map_err(|diag| at(*diag, name, record, vocabulary))

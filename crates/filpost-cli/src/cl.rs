@@ -5,9 +5,9 @@ use std::io::{self, Write};
 
 use filpost::cl::record::{kind, motion};
 use filpost::cl::{
-    Evidence, Recognized, Record, SplineCounts, Vocabulary, WordView, reader::Reader, words,
+    Evidence, Recognized, Record, SplineCounts, Vocabulary, WordId, WordView, reader::Reader, words,
 };
-use filpost::{Error, Extents, Refusals, Unit, statement_text};
+use filpost::{Error, Extents, Refusals, Unit, UnitSource, statement_text};
 use serde_json::{Value, json};
 
 use crate::args::ClArgs;
@@ -28,12 +28,13 @@ pub fn run(args: &ClArgs) -> Result<Status, Error> {
     let input = output::open(cl)?;
     let options = setup::cl_options(args.encoding.as_deref(), &args.cl_reading, args.raw)?;
     let mut reader = Reader::new(input, &output::input_name(cl), options);
+    let told = reader.told_unit();
     let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
     let mut show = Show {
         output: output::View::new(),
         words: args.words,
         json: args.json,
-        totals: Totals { given: args.units.units, ..Totals::default() },
+        totals: Totals { given: args.units.units, told: told.map(unit_of), ..Totals::default() },
     };
     show.head().map_err(|error| output::stdout_error(&error))?;
     let mut refusals = Refusals::new();
@@ -63,6 +64,11 @@ pub fn run(args: &ClArgs) -> Result<Status, Error> {
     Ok(Status::Done)
 }
 
+/// The unit that INCHES and MM name.
+fn unit_of(word: WordId) -> Unit {
+    if word == words::INCHES { Unit::Inch } else { Unit::Mm }
+}
+
 /// What is counted over all records.
 #[derive(Default)]
 struct Totals {
@@ -70,6 +76,8 @@ struct Totals {
     words: BTreeMap<String, u64>,
     /// The unit of `--units`.
     given: Option<Unit>,
+    /// The unit that the feeds tell.
+    told: Option<Unit>,
     /// The units that UNITS has said.
     said: Vec<Unit>,
     point: Option<[f64; 3]>,
@@ -85,7 +93,8 @@ impl Totals {
             None => drop(self.words.insert(name.to_string(), 1)),
         }
         if record.major == words::UNITS {
-            let unit = if record.has(words::INCHES) { Unit::Inch } else { Unit::Mm };
+            let word = if record.has(words::INCHES) { words::INCHES } else { words::MM };
+            let unit = unit_of(word);
             if !self.said.contains(&unit) {
                 self.said.push(unit);
             }
@@ -106,7 +115,10 @@ impl Totals {
     /// The unit, and who says it: no file is taken to be in mm.
     fn unit(&self) -> String {
         match (&self.said[..], self.given) {
-            ([], None) => "not said".into(),
+            ([], None) => match self.told {
+                Some(told) => format!("{told} ({})", UnitSource::Feeds),
+                None => "not said".into(),
+            },
             ([], Some(given)) => format!("{given} (--units)"),
             ([said], None) => format!("{said} (UNITS)"),
             ([said], Some(given)) if *said == given => format!("{said} (UNITS)"),
@@ -119,6 +131,7 @@ impl Totals {
     fn unit_json(&self) -> Value {
         match (&self.said[..], self.given) {
             ([], Some(unit)) => json!(unit.to_string()),
+            ([], None) => self.told.map_or(Value::Null, |unit| json!(unit.to_string())),
             ([unit], None) => json!(unit.to_string()),
             ([said], Some(given)) if *said == given => json!(said.to_string()),
             _ => Value::Null,

@@ -61,6 +61,9 @@ fn signs(rules: &DialectRules) -> Vec<String> {
         Sign::Name(name) => (*name).to_string(),
         Sign::Prefix(begin) => format!("{begin}…"),
         Sign::Text(word, part) => format!("{part} in {}", vocabulary.name(*word)),
+        Sign::TextBegin(word, begin) => {
+            format!("{} that begins with {begin}", vocabulary.name(*word))
+        }
     };
     rules.signs.iter().map(spell).collect()
 }
@@ -88,5 +91,11 @@ fn axis(rule: AxisRule) -> &'static str {
 }
 
 fn units(rules: &DialectRules) -> &'static str {
-    if rules.writes_units { "in each file" } else { "not in each file" }
+    match rules {
+        rules if rules.writes_units => "in each file",
+        rules if rules.feeds_tell_unit => {
+            "by its feeds: MMPM and MMPR for mm, IPM and IPR for inches"
+        }
+        _ => "not in each file",
+    }
 }

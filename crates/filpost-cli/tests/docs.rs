@@ -292,7 +292,8 @@ fn the_page_of_dialects_has_them_all() {
         for sign in rules.signs {
             let spelled = match sign {
                 Sign::Word(word) => vocabulary.name(*word),
-                Sign::Name(text) | Sign::Prefix(text) | Sign::Text(_, text) => text,
+                Sign::Name(text) | Sign::Prefix(text) => text,
+                Sign::Text(_, text) | Sign::TextBegin(_, text) => text,
                 Sign::Pseudo => "`$$->`",
                 // Without blanks in the table, so only its first letters are looked for.
                 Sign::Comment(text) => &text.trim_start_matches('*')[..3],

@@ -99,7 +99,7 @@ pub fn lay_under(
     mut cl: ClText<'_>,
     commons: &Commons,
 ) -> Result<(), Error> {
-    let known = units::known_before(cl.unit, commons).map_err(Error::Run)?;
+    let known = units::known_before(cl.unit, None, commons).map_err(Error::Run)?;
     cl.unit = known.map(|(unit, _)| unit);
     let shift = ["input.translate_x", "input.translate_y", "input.translate_z"].map(|key| {
         let row = fil_machine::locations::Location::named(key);

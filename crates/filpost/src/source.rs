@@ -7,6 +7,7 @@ use fil_cl::{
     Recognized, Record, SplineCounts, Vocabulary, Word, WordId, reader::Reader, record::kind, words,
 };
 use fil_diag::Result;
+use fil_machine::Unit;
 use fil_post::operation::NextTools;
 
 use crate::coordinates::{Coordinates, coordinates};
@@ -136,6 +137,12 @@ impl<'r> Source<'r> {
     /// The dialect of the CL text, as far as it was read.
     pub fn recognized(&self) -> Option<Recognized> {
         self.reader.text().map(Reader::recognized)
+    }
+
+    /// The unit that a CL text tells by the unit of its feeds; to be asked before it is read.
+    pub fn told_unit(&mut self) -> Option<Unit> {
+        let Stream::Cl(reader) = &mut self.reader else { return None };
+        reader.told_unit().map(|word| if word == words::INCHES { Unit::Inch } else { Unit::Mm })
     }
 
     /// The splines that were read as lines so far.

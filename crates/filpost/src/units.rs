@@ -14,6 +14,8 @@ pub enum UnitSource {
     Given,
     /// The machine, which takes one unit only (`units.mode`).
     Machine,
+    /// The CL file with the unit of its feeds, where its system writes MMPM for mm only.
+    Feeds,
 }
 
 impl std::fmt::Display for UnitSource {
@@ -22,6 +24,7 @@ impl std::fmt::Display for UnitSource {
             UnitSource::Statement => "UNITS",
             UnitSource::Given => "--units",
             UnitSource::Machine => "units.mode",
+            UnitSource::Feeds => "as its feeds say",
         })
     }
 }
@@ -35,19 +38,25 @@ pub fn unit_named(name: &str) -> Option<Unit> {
     }
 }
 
-/// The unit that is known before the CL file is read.
+/// The unit that is known before the CL file is read; `told`: by the unit of its feeds.
 ///
 /// # Errors
 /// E0715 for a unit that the machine does not take.
 pub(crate) fn known_before(
     given: Option<Unit>,
+    told: Option<Unit>,
     commons: &Commons,
 ) -> Result<Option<(Unit, UnitSource)>> {
-    match (given, Unit::of_machine(commons)) {
-        (Some(given), Some(machine)) if given != machine => PostCode::Units
+    match (given, told, Unit::of_machine(commons)) {
+        (Some(given), _, Some(machine)) if given != machine => PostCode::Units
             .err(format!("{given} is given, and the machine takes {machine} only (units.mode)")),
-        (_, Some(machine)) => Ok(Some((machine, UnitSource::Machine))),
-        (Some(given), None) => Ok(Some((given, UnitSource::Given))),
-        (None, None) => Ok(None),
+        (None, Some(told), Some(machine)) if told != machine => PostCode::Units.err(format!(
+            "the feeds of the file are those of {told}, and the machine takes {machine} only \
+             (units.mode)"
+        )),
+        (_, _, Some(machine)) => Ok(Some((machine, UnitSource::Machine))),
+        (Some(given), _, None) => Ok(Some((given, UnitSource::Given))),
+        (None, Some(told), None) => Ok(Some((told, UnitSource::Feeds))),
+        (None, None, None) => Ok(None),
     }
 }

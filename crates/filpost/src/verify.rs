@@ -129,7 +129,8 @@ impl Run<'_> {
         allowed: Allowed,
     ) -> Result<Report, Error> {
         let name = self.name();
-        let known = units::known_before(self.units, self.program.commons()).map_err(Error::Run)?;
+        let known =
+            units::known_before(self.units, None, self.program.commons()).map_err(Error::Run)?;
         let compared = ahead(Running::new(nc, nc_name, dialect), |events| {
             verify(Check {
                 cl: Reader::new(cl, &name, Options { raw: false, ..self.reading }),

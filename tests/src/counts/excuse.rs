@@ -68,6 +68,16 @@ impl Setting<'_> {
         if no_time {
             return Some(Excuse::Other("a dwell of no time"));
         }
+        // NX names a deep hole by both words.
+        let is_said_twice = change == Change::Drop
+            && statement.major == "CYCLE"
+            && index == 0
+            && statement.item(0) == "DRILL"
+            && statement.items.len() > 1
+            && ["DEEP", "BRKCHP"].contains(&&statement.item(1)[..]);
+        if is_said_twice {
+            return Some(Excuse::Other("DRILL,DEEP of NX is DEEP"));
+        }
         let row = no_effect::rows().find(|row| self.covers(row, index, change));
         row.map(Excuse::Row).or_else(|| self.dead().map(Excuse::Other))
     }
@@ -76,7 +86,9 @@ impl Setting<'_> {
     fn covers(&self, row: &NoEffect, index: usize, change: Change) -> bool {
         let statement = self.statement();
         let in_comment = row.major == ARROW && statement.in_comment && statement.major != "CUTTER";
-        if row.major != statement.major && !in_comment {
+        // MOVARC is a CIRCLE that tells its angle.
+        let major = if statement.major == "MOVARC" { "CIRCLE" } else { &statement.major[..] };
+        if row.major != major && !in_comment {
             return false;
         }
         if row.item == "*" {

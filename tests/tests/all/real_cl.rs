@@ -11,6 +11,7 @@ use fil_nc::forward::Pose;
 use fil_nc::verify::{Allowed, ClPath, ExpectedStep, Verdict};
 use filpost::Unit;
 use filpost::cl::reader::{Options, Reader};
+use filpost::cl::{Record, Vocabulary};
 use filpost::verify::NcProgram;
 use filpost_tests::cl_path::cl_path_in;
 use filpost_tests::compare::compare;
@@ -51,61 +52,76 @@ impl Machine {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Outcome {
     Agrees,
-    /// Refused with this code at this line.
-    Refused(&'static str, usize),
+    /// Refused with this code at this line, and why that is right.
+    Refused(&'static str, usize, &'static str),
 }
 
 use Machine::{Lathe, Mill, Tables};
 use Outcome::{Agrees, Refused};
 
-/// The files, each with the machine and what comes of it.
-const FILES: &[(&str, Machine, Outcome)] = &[
-    ("cl/creo/bohren_1.ncl.8", Mill, Agrees),
-    ("cl/creo/op010.ncl.1", Mill, Agrees),
-    ("cl/creo/profilfraesen_2.ncl.1", Mill, Agrees),
-    ("cl/nx/TORETC_250_BOK.cls", Tables, Agrees),
-    ("cl/nx/_2_KONTUR_VNUT_40_N2.cls", Mill, Agrees),
-    ("cl/nx/_4_SVERL_63_N2.cls", Mill, Agrees),
-    ("cl/nx/ust_a.cls", Tables, Agrees),
-    // No FEDRAT; a binary file; a part program and not its points.
-    ("cl/other/upside_down.as", Tables, Refused("E0509", 18)),
-    ("cl/other/upside_down.cl", Mill, Refused("E0402", 1)),
-    ("cl/other/upside_down.pp", Mill, Refused("E0513", 3)),
-    ("cl/solidworks-cam/Teflon-gasket.apt", Mill, Agrees),
-    ("cl/solidworks-cam/Teste-Metrologia.apt", Tables, Agrees),
-    ("cl/solidworks-cam/shimemcunha.apt", Tables, Agrees),
-    ("cl-more/camworks/UniSource.clt", Tables, Refused("E0506", 90)),
-    ("cl-more/catia/1_linear_3x_linear_3x_PATH1.aptsource", Tables, Agrees),
-    ("cl-more/catia/1_linear_5x_linear_5x_PATH1.aptsource", Tables, Agrees),
+/// The files, each with its dialect, the machine and what comes of it.
+const FILES: &[(&str, &str, Machine, Outcome)] = &[
+    ("cl/creo/bohren_1.ncl.8", "creo", Mill, Agrees),
+    ("cl/creo/op010.ncl.1", "creo", Mill, Agrees),
+    ("cl/creo/profilfraesen_2.ncl.1", "creo", Mill, Agrees),
+    ("cl/nx/TORETC_250_BOK.cls", "nx", Tables, Agrees),
+    ("cl/nx/_2_KONTUR_VNUT_40_N2.cls", "nx", Mill, Agrees),
+    ("cl/nx/_4_SVERL_63_N2.cls", "nx", Mill, Agrees),
+    ("cl/nx/ust_a.cls", "nx", Tables, Agrees),
+    ("cl/other/upside_down.as", "ncl", Tables, Refused("E0509", 18, "it has no FEDRAT")),
+    ("cl/other/upside_down.cl", "generic", Mill, Refused("E0402", 1, "a binary file")),
+    ("cl/other/upside_down.pp", "generic", Mill, Refused("E0513", 3, "a part program, not points")),
+    ("cl/solidworks-cam/Teflon-gasket.apt", "solidworks-cam", Mill, Agrees),
+    ("cl/solidworks-cam/Teste-Metrologia.apt", "solidworks-cam", Tables, Agrees),
+    ("cl/solidworks-cam/shimemcunha.apt", "solidworks-cam", Tables, Agrees),
+    (
+        "cl-more/camworks/UniSource.clt",
+        "camworks",
+        Tables,
+        Refused("E0506", 90, "CUTCOM, and no tool has a number"),
+    ),
+    ("cl-more/catia/1_linear_3x_linear_3x_PATH1.aptsource", "catia", Tables, Agrees),
+    ("cl-more/catia/1_linear_5x_linear_5x_PATH1.aptsource", "catia", Tables, Agrees),
     (
         "cl-more/catia/2_circle-cylndr_circle-cylndr_5x_circle-cylndr_5x_PATH1.aptsource",
+        "catia",
         Tables,
         Agrees,
     ),
-    ("cl-more/catia/4_toolchange_empty-to-mill.aptsource", Mill, Agrees),
-    ("cl-more/catia/4_toolchange_mill-to-turn.aptsource", Mill, Agrees),
-    // ROTABL, whose points are not in the file.
-    ("cl-more/catia/5_rotabl_rotabl.aptsource", Tables, Refused("E0506", 8)),
-    ("cl-more/catia/DEMO1.txt", Lathe, Agrees),
-    // A tap without a feed.
-    ("cl-more/catia/DEMO2.txt", Mill, Refused("E0511", 32)),
-    ("cl-more/catia/DEMO5.txt", Lathe, Agrees),
-    ("cl-more/catia/circle-cylndr-helical_3x_PATH1.aptsource", Tables, Agrees),
-    ("cl-more/catia/circle-cylndr_3x_PATH1.aptsource", Tables, Agrees),
-    // Its last line is no statement.
-    ("cl-more/catia/izlaz.txt", Mill, Refused("E0513", 84)),
-    ("cl-more/catia/milling_MILLING_PATH1_FRONT.aptsource", Tables, Agrees),
-    ("cl-more/catia/milling_MILLING_PATH2_TRANSV.aptsource", Tables, Agrees),
-    ("cl-more/catia/turning_TURNING_PATH1_TRANSV.aptsource", Tables, Agrees),
-    // No FEDRAT.
-    ("cl-more/nx/PathPointsFile.cls", Tables, Refused("E0509", 1)),
-    ("cl-more/nx/Plane_1.cldata", Mill, Agrees),
-    ("cl-more/nx/cutcom2.clsf", Mill, Agrees),
-    // SYNC waits for another turret.
-    ("cl-more/other/catia_help_lathe_LT.aptsource", Lathe, Refused("E0506", 39)),
-    ("cl-more/other/nx_matkap_CLS.cls", Mill, Agrees),
-    ("cl-more/solidworks-cam/Suporte-parede-top.apt", Mill, Agrees),
-    ("cl-more/solidworks-cam/wall-holes.apt", Tables, Agrees),
+    ("cl-more/catia/4_toolchange_empty-to-mill.aptsource", "catia", Mill, Agrees),
+    ("cl-more/catia/4_toolchange_mill-to-turn.aptsource", "catia", Mill, Agrees),
+    (
+        "cl-more/catia/5_rotabl_rotabl.aptsource",
+        "catia",
+        Tables,
+        Refused("E0506", 8, "ROTABL, and the points after it are not in the file"),
+    ),
+    ("cl-more/catia/DEMO1.txt", "catia", Lathe, Agrees),
+    ("cl-more/catia/DEMO2.txt", "catia", Mill, Refused("E0511", 32, "a tap without a feed")),
+    ("cl-more/catia/DEMO5.txt", "catia", Lathe, Agrees),
+    ("cl-more/catia/circle-cylndr-helical_3x_PATH1.aptsource", "catia", Tables, Agrees),
+    ("cl-more/catia/circle-cylndr_3x_PATH1.aptsource", "catia", Tables, Agrees),
+    (
+        "cl-more/catia/izlaz.txt",
+        "catia",
+        Mill,
+        Refused("E0513", 84, "its last line is no statement"),
+    ),
+    ("cl-more/catia/milling_MILLING_PATH1_FRONT.aptsource", "catia", Tables, Agrees),
+    ("cl-more/catia/milling_MILLING_PATH2_TRANSV.aptsource", "catia", Tables, Agrees),
+    ("cl-more/catia/turning_TURNING_PATH1_TRANSV.aptsource", "catia", Lathe, Agrees),
+    ("cl-more/nx/PathPointsFile.cls", "generic", Tables, Refused("E0509", 1, "it has no FEDRAT")),
+    ("cl-more/nx/Plane_1.cldata", "ffcam", Mill, Agrees),
+    ("cl-more/nx/cutcom2.clsf", "nx", Mill, Agrees),
+    (
+        "cl-more/other/catia_help_lathe_LT.aptsource",
+        "catia",
+        Lathe,
+        Refused("E0506", 39, "SYNC waits for another turret"),
+    ),
+    ("cl-more/other/nx_matkap_CLS.cls", "nx", Mill, Agrees),
+    ("cl-more/solidworks-cam/Suporte-parede-top.apt", "solidworks-cam", Mill, Agrees),
+    ("cl-more/solidworks-cam/wall-holes.apt", "solidworks-cam", Tables, Agrees),
 ];
 
 /// The folder of files of others; `None`, with the reason printed, where it is absent.
@@ -119,11 +135,21 @@ fn data() -> Option<PathBuf> {
     None
 }
 
-/// A file as text, and the unit it does not say itself.
+/// A file as text, and the unit that it says neither itself nor by its feeds.
 fn read(path: &Path) -> (Vec<u8>, Option<Unit>) {
     let text = fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let says = text.windows(5).any(|word| word == b"UNIT/" || word == b"UNITS");
-    (text, if says { None } else { Some(Unit::Mm) })
+    let told = Reader::new(&text[..], "part", Options::default()).told_unit();
+    let is_known = says || told.is_some();
+    (text, if is_known { None } else { Some(Unit::Mm) })
+}
+
+/// The dialect of a text, by its signs.
+fn dialect(text: &[u8]) -> &'static str {
+    let mut reader = Reader::new(text, "part", Options::default());
+    let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
+    while matches!(reader.read(&mut vocabulary, &mut record), Ok(true)) {}
+    reader.recognized().dialect.name()
 }
 
 fn post(
@@ -155,19 +181,23 @@ fn back_check(post: &filpost::Program, cl: &[u8], unit: Option<Unit>, nc: &[u8])
 #[test]
 fn each_file_agrees_or_is_refused_for_its_reason() {
     let Some(data) = data() else { return };
-    for (name, machine, expected) in FILES {
+    for (name, system, machine, expected) in FILES {
         let (cl, unit) = read(&data.join(name));
+        assert_eq!(dialect(&cl), *system, "{name}");
         let program = machine.post();
         let found = post(&program, &cl, unit);
         match (found, expected) {
             (Ok(nc), Agrees) => assert_eq!(back_check(&program, &cl, unit, &nc), "", "{name}"),
-            (Err(diag), Refused(code, line)) => {
+            (Err(diag), Refused(code, line, _)) => {
                 let at = diag.spans.first().map_or(0, |span| span.line as usize);
                 assert_eq!((diag.code.name().as_str(), at), (*code, *line), "{name}: {diag}");
             }
-            (Ok(_), Refused(code, _)) => panic!("{name} posts; {code} was expected"),
+            (Ok(_), Refused(code, ..)) => panic!("{name} posts; {code} was expected"),
             (Err(diag), Agrees) => panic!("{name}: {diag}"),
         }
+    }
+    for (name, system, machine, outcome) in FILES {
+        println!("{name}: {system}, {machine:?}, {outcome:?}");
     }
     let agree = FILES.iter().filter(|(.., outcome)| *outcome == Agrees).count();
     println!("{agree} files agree, {} are refused", FILES.len() - agree);
@@ -205,7 +235,7 @@ fn programs_of_three_axes_run() {
     let (Some(data), Some(program)) = (data(), rs274::program()) else { return };
     let mut done = 0;
     for (name, ..) in
-        FILES.iter().filter(|(_, machine, outcome)| *machine == Mill && *outcome == Agrees)
+        FILES.iter().filter(|(_, _, machine, outcome)| *machine == Mill && *outcome == Agrees)
     {
         let (cl, unit) = read(&data.join(name));
         let cl = without_compensation(&cl);

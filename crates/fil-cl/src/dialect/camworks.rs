@@ -30,6 +30,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     blanks_in_cycles: true,
     comma_words: false,
     writes_units: true,
+    feeds_tell_unit: false,
     writes_fini: true,
     rewrite: Some(rewrite),
     rewrite_text: Some(free_text::insert_or_note),

@@ -33,6 +33,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     blanks_in_cycles: false,
     comma_words: true,
     writes_units: false,
+    feeds_tell_unit: false,
     writes_fini: false,
     rewrite: Some(rewrite),
     rewrite_text: None,

@@ -30,6 +30,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     blanks_in_cycles: false,
     comma_words: false,
     writes_units: true,
+    feeds_tell_unit: false,
     writes_fini: true,
     rewrite: Some(rewrite),
     rewrite_text: None,
@@ -43,9 +44,97 @@ fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
         w::CYCLE => cycle::positional(written)?,
         w::PPWORD => return word_code(written),
         w::CAMERA if written.record.data.len() == FRAME => written.record.major = w::CSYS,
+        w::HEAD => return Ok(head(written)),
+        w::SPINDL => return Ok(spindle_direction(written)),
+        w::GOTO | w::FROM if written.state.spindle_along.is_some() => check_along(written)?,
+        major if written.vocabulary.name(major) == "MOVNRB" => return nurbs(written),
         _ => {}
     }
     Ok(Outcome::Free)
+}
+
+/// HEAD/n names the head that the file is for; another one would be another program.
+fn head(written: &mut Written<'_>) -> Outcome {
+    if let [head @ Word::Number(_)] = written.record.data[..] {
+        written.record.inert = *written.state.channel.get_or_insert(head) == head;
+    }
+    Outcome::Bound
+}
+
+/// SPINDL/PARLEL,XAXIS says along which axis the driven tool lies; the next point has its tool
+/// axis, which must say the same.
+fn spindle_direction(written: &mut Written<'_>) -> Outcome {
+    let along = match written.record.data[..] {
+        [Word::Minor(_), Word::Minor(w::XAXIS)] => 0,
+        [Word::Minor(_), Word::Minor(w::YAXIS)] => 1,
+        [Word::Minor(_), Word::Minor(w::ZAXIS)] => 2,
+        _ => return Outcome::Free,
+    };
+    if written.name(0) != "PARLEL" {
+        return Outcome::Free;
+    }
+    written.state.spindle_along = Some(along);
+    written.record.inert = true;
+    Outcome::Bound
+}
+
+/// The tool axis of a point after SPINDL/PARLEL.
+///
+/// # Errors
+/// It lies along another axis, or is not written beside X or Y.
+fn check_along(written: &mut Written<'_>) -> Result<(), FormError> {
+    let Some(along) = written.state.spindle_along.take() else { return Ok(()) };
+    let axis = [3, 4, 5].map(|item| written.number(item));
+    let agrees = match axis[along] {
+        Some(part) => (part.abs() - 1.0).abs() < 1e-3,
+        None => along == 2,
+    };
+    if agrees {
+        return Ok(());
+    }
+    let message = "the tool axis of this point is not that of SPINDL/PARLEL";
+    let hint = "write the tool axis with each point: MULTAX/ON, GOTO/x,y,z,i,j,k";
+    Err(FormError::new(ClCode::UnclearPoints, 0, message).hint(hint))
+}
+
+/// MOVNRB describes a curve besides the points: those between MOVNRB/NEXT and MOVNRB/OFF are
+/// the motion point by point, as PTC documents it. The curve must end where they end.
+///
+/// # Errors
+/// Other items than those documented; points that end elsewhere.
+fn nurbs(written: &mut Written<'_>) -> Result<Outcome, FormError> {
+    let numbers = written.record.data.iter().skip(1);
+    let has_numbers = numbers.clone().all(|word| matches!(word, Word::Number(_)));
+    let count = numbers.count();
+    let wrong = |message| Err(FormError::new(ClCode::BadSpline, 0, message));
+    match written.record.data.first() {
+        Some(Word::Number(which)) if has_numbers && count > 0 => {
+            let is_poles = *which == 2.0 || *which == 3.0;
+            if !(is_poles && count.is_multiple_of(3) || *which == 1.0) {
+                return wrong("MOVNRB/1 has knots, MOVNRB/2 and 3 have points of three numbers");
+            }
+            if *which == 2.0 {
+                let last = [count - 2, count - 1, count].map(|item| written.number(item));
+                written.state.curve_end = Some(last.map(Option::unwrap_or_default));
+            }
+        }
+        Some(Word::Minor(w::ON)) if has_numbers && count == 5 => {}
+        Some(Word::Minor(w::NEXT)) if count == 0 => {}
+        Some(Word::Minor(w::OFF)) if count == 0 => {
+            let [end, point] = [written.state.curve_end.take(), written.point];
+            let is_near = |(end, point): ([f64; 3], [f64; 3])| {
+                end.iter().zip(point).all(|(a, b)| (a - b).abs() < 1e-3)
+            };
+            if !end.zip(point).is_some_and(is_near) {
+                return wrong("the points before it do not end where the curve ends");
+            }
+        }
+        _ if written.name(0) == "M3AXIS" && count == 0 => {}
+        Some(Word::Text { .. }) if written.record.text.eq_ignore_ascii_case("5AXIS") => {}
+        _ => return wrong("MOVNRB has other items than those that PTC documents"),
+    }
+    written.record.inert = true;
+    Ok(Outcome::Bound)
 }
 
 /// Numbers of a frame: three rows of four.

@@ -24,6 +24,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     blanks_in_cycles: false,
     comma_words: false,
     writes_units: true,
+    feeds_tell_unit: false,
     writes_fini: false,
     rewrite: Some(rewrite),
     rewrite_text: Some(rewrite_text),

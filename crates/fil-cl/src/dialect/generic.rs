@@ -24,13 +24,14 @@ pub(super) const RULES: DialectRules = DialectRules {
     blanks_in_cycles: false,
     comma_words: false,
     writes_units: false,
+    feeds_tell_unit: false,
     writes_fini: true,
     rewrite: Some(rewrite),
     rewrite_text: None,
     without_effect: &[],
 };
 
-fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
+pub(super) fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
     match written.record.major {
         w::CYCLE => cycle::positional(written)?,
         w::FEDRAT if ["PERMIN", "PERREV"].contains(&written.name(0)) => {

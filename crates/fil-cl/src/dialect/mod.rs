@@ -10,10 +10,12 @@ mod camworks_axis;
 mod catia;
 mod creo;
 mod ffcam;
+mod fusion;
 mod generic;
 mod generic_left;
 mod ncl;
 mod nx;
+mod ornl_slicer;
 mod recognition;
 mod solidworks_cam;
 
@@ -48,6 +50,10 @@ pub enum ClDialect {
     Ffcam,
     /// NCCS NCL (`.as`).
     Ncl,
+    /// Autodesk Fusion and HSM APT (`.apt`).
+    Fusion,
+    /// ORNL Slicer 2 APT (`_output.apt`).
+    OrnlSlicer,
 }
 
 /// How a dialect is recognized and what its statements mean.
@@ -83,6 +89,8 @@ pub struct DialectRules {
     pub comma_words: bool,
     /// True where each file says its unit.
     pub writes_units: bool,
+    /// True where MMPM and MMPR stand in files in mm only, and IPM and IPR in those in inches.
+    pub feeds_tell_unit: bool,
     /// True where each file ends in FINI.
     pub writes_fini: bool,
     /// Brings its statements to the form of Creo, where they differ.
@@ -108,6 +116,8 @@ pub enum Sign {
     Prefix(&'static str),
     /// A text statement that holds this word.
     Text(WordId, &'static str),
+    /// A text statement that begins so.
+    TextBegin(WordId, &'static str),
 }
 
 /// The CIRCLE statements of a dialect.
@@ -196,6 +206,8 @@ impl ClDialect {
         ClDialect::CamWorksAxis,
         ClDialect::Ffcam,
         ClDialect::Ncl,
+        ClDialect::Fusion,
+        ClDialect::OrnlSlicer,
     ];
 
     /// The table of the dialect.
@@ -211,6 +223,8 @@ impl ClDialect {
             ClDialect::CamWorksAxis => &camworks_axis::RULES,
             ClDialect::Ffcam => &ffcam::RULES,
             ClDialect::Ncl => &ncl::RULES,
+            ClDialect::Fusion => &fusion::RULES,
+            ClDialect::OrnlSlicer => &ornl_slicer::RULES,
         }
     }
 

@@ -21,6 +21,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     blanks_in_cycles: false,
     comma_words: false,
     writes_units: false,
+    feeds_tell_unit: false,
     writes_fini: true,
     rewrite: None,
     rewrite_text: None,

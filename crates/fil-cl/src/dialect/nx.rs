@@ -32,6 +32,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     blanks_in_cycles: false,
     comma_words: false,
     writes_units: false,
+    feeds_tell_unit: true,
     writes_fini: false,
     rewrite: Some(rewrite),
     rewrite_text: None,

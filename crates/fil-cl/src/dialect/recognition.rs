@@ -171,14 +171,19 @@ impl Recognition {
         self.watch(place, |sign| match sign {
             Sign::Word(word) => *word == major,
             Sign::Text(word, part) => *word == major && holds(part),
+            Sign::TextBegin(word, begin) => *word == major && text.trim().starts_with(begin),
             _ => false,
         });
     }
 
     /// Takes the dialect that has a sign which is there.
     fn watch(&mut self, place: impl FnOnce() -> TextSpan, is_there: impl Fn(&Sign) -> bool) {
-        let found = self.signs.iter().find(|(sign, _)| is_there(sign));
-        let Some(dialect) = found.map(|(_, dialect)| *dialect) else { return };
+        let mut found = self.signs.iter().filter(|(sign, _)| is_there(sign));
+        let Some(dialect) = found.next().map(|(_, dialect)| *dialect) else { return };
+        // What the system found by now writes, too, says nothing against it.
+        if found.any(|(_, other)| *other == self.found.dialect) {
+            return;
+        }
         if self.found.evidence == Evidence::Chosen {
             if dialect != self.found.dialect && self.found.against.is_none() {
                 self.found.against = Some((dialect, place().line));

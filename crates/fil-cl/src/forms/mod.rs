@@ -97,6 +97,10 @@ pub(crate) struct FormState {
     pub(crate) highest_speed: Option<f64>,
     /// CHANNEL: the spindle or turret that the file is for.
     pub(crate) channel: Option<Word>,
+    /// SPINDL/PARLEL: the axis along which the tool of the next point lies, 0 for X.
+    pub(crate) spindle_along: Option<usize>,
+    /// MOVNRB: the last control point of the curve under way.
+    pub(crate) curve_end: Option<[f64; 3]>,
     /// INTOL, where it is above 0.
     pub(crate) inner_tolerance: Option<f64>,
     /// OUTTOL, where it is above 0.
@@ -115,7 +119,10 @@ impl FormState {
     /// True while each motion must be looked at.
     #[inline]
     pub(crate) fn watches_motions(&self) -> bool {
-        self.expects.is_some() || self.table.is_in_play() || self.told_sweep.is_some()
+        self.expects.is_some()
+            || self.table.is_in_play()
+            || self.told_sweep.is_some()
+            || self.spindle_along.is_some()
     }
 }
 
@@ -124,6 +131,8 @@ pub(crate) struct Written<'a> {
     pub(crate) record: &'a mut Record,
     pub(crate) vocabulary: &'a mut Vocabulary,
     pub(crate) state: &'a mut FormState,
+    /// Where the tool stands; `None` where that is not known.
+    pub(crate) point: Option<[f64; 3]>,
     /// Records that the statement makes besides its own, the last one first.
     pub(crate) made: &'a mut Vec<Record>,
 }

@@ -1,8 +1,11 @@
 //! A look at the beginning of a text, so that its first statements are read by the rules of a
 //! dialect whose sign comes after them.
 
-use super::{Options, Reader};
-use crate::dialect::Evidence;
+use fil_diag::{Diag, Result, TextSpan};
+
+use super::{Options, Reader, number::number};
+use crate::dialect::{Evidence, Recognition};
+use crate::errors::ClCode;
 use crate::record::Record;
 use crate::vocabulary::Vocabulary;
 
@@ -10,26 +13,68 @@ use crate::vocabulary::Vocabulary;
 /// read that its dialect reads otherwise.
 const AHEAD: usize = 64 * 1024;
 
+/// True for the beginning of an NCI file of Mastercam: a code in one line, its values in the next.
+fn is_nci(text: &[u8]) -> bool {
+    let is_value = |item: &[u8]| number(item).is_some();
+    let mut lines = text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
+    let (Some(code), Some(values)) = (lines.next(), lines.next()) else { return false };
+    let is_code = !code.is_empty() && code.iter().all(u8::is_ascii_digit);
+    let mut items = values.split(u8::is_ascii_whitespace).filter(|item| !item.is_empty());
+    is_code && items.next().is_some_and(is_value)
+}
+
+/// What the signs in a text show, from the statement of its first line on.
+fn scouted(text: &[u8], file: &str, line: u32, options: Options) -> Recognition {
+    let mut scout = Reader::new(text, file, options);
+    scout.is_scout = true;
+    scout.lines.count_from(line);
+    let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
+    while scout.recognized().evidence == Evidence::NoSign {
+        match scout.read(&mut vocabulary, &mut record) {
+            Ok(true) => {}
+            Ok(false) => break,
+            // Another dialect may read what this one refuses.
+            Err(_) if scout.resume() => {}
+            Err(_) => break,
+        }
+    }
+    scout.recognition.begun_again()
+}
+
 impl Reader<'_> {
+    /// Refuses a file of a system that writes no CL text.
+    ///
+    /// # Errors
+    /// It is an NCI file.
+    pub(super) fn refuse_nci(&self) -> Result<()> {
+        if self.is_scout || !is_nci(self.lines.unread()) {
+            return Ok(());
+        }
+        let place = TextSpan::line(&self.file, self.lines.line(), "");
+        let message = "an NCI file of Mastercam: codes and values in turn, and no statements";
+        let hint = "Write APT with a post of Mastercam for it (NCI2APT), and post that file.";
+        Err(Box::new(Diag::new(ClCode::BinaryData, message).at(place).hint(hint)))
+    }
+
     /// Takes the dialect whose sign stands in the first bytes. What is wrong with their
     /// statements, and an input that fails, is said when they are read.
     pub(super) fn recognize_ahead(&mut self) {
         if self.options.dialect.is_some() || self.is_scout {
             return;
         }
+        let (line, file) = (self.lines.line(), self.file.clone());
+        let options = Options { raw: true, ..self.options };
+        self.recognition = scouted(self.ahead(), &file, line, options);
+    }
+
+    /// The whole lines of the first bytes; nothing of an input that fails.
+    pub(super) fn ahead(&mut self) -> &[u8] {
         if self.lines.fill_to(AHEAD).is_err() && self.lines.unread().is_empty() {
-            return;
+            return &[];
         }
         let unread = self.lines.unread();
-        let end = memchr::memrchr(b'\n', unread).map_or(unread.len(), |end| end + 1);
-        let options = Options { raw: true, ..self.options };
-        let mut scout = Reader::new(&unread[..end], &self.file, options);
-        scout.is_scout = true;
-        scout.lines.count_from(self.lines.line());
-        let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
-        while scout.recognized().evidence == Evidence::NoSign
-            && matches!(scout.read(&mut vocabulary, &mut record), Ok(true))
-        {}
-        self.recognition = scout.recognition.begun_again();
+        let most = &unread[..unread.len().min(AHEAD)];
+        let end = memchr::memrchr(b'\n', most).map_or(most.len(), |end| end + 1);
+        &most[..end]
     }
 }

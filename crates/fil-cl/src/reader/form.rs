@@ -49,8 +49,8 @@ impl Reader<'_> {
             return self.take_helix(vocab, record);
         }
         if !rules.is_creo() {
-            let (state, made) = (&mut self.modal.forms, &mut self.made);
-            common::to_creo(&mut Written { record, vocabulary: vocab, state, made });
+            let (state, made, point) = (&mut self.modal.forms, &mut self.made, self.modal.point);
+            common::to_creo(&mut Written { record, vocabulary: vocab, state, point, made });
         }
         // The radius of a circle comes from the point before it where it is left out.
         let outcome = match record.major {
@@ -58,8 +58,8 @@ impl Reader<'_> {
             _ => Outcome::Free,
         };
         let Some(rewrite) = rules.rewrite else { return Ok(outcome) };
-        let (state, made) = (&mut self.modal.forms, &mut self.made);
-        let mut written = Written { record, vocabulary: vocab, state, made };
+        let (state, made, point) = (&mut self.modal.forms, &mut self.made, self.modal.point);
+        let mut written = Written { record, vocabulary: vocab, state, point, made };
         let rewritten = rewrite(&mut written).map_err(|error| self.form_error(error))?;
         Ok(if rewritten == Outcome::Free { outcome } else { rewritten })
     }

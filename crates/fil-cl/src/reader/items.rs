@@ -107,7 +107,7 @@ impl Reader<'_> {
         let known = if has_blank { without_blanks(vocab, name) } else { None };
         let id = match known {
             Some(id) => id,
-            _ if has_blank && !pseudo => {
+            _ if has_blank && !pseudo && !self.is_heading(name) => {
                 return refuse(
                     ClCode::BadWord,
                     "several words where a slash or a comma is missing",
@@ -122,6 +122,11 @@ impl Reader<'_> {
             return refuse(ClCode::BadWord, "a comma where the slash should be");
         }
         Ok(id)
+    }
+
+    /// A word of the dialect that has a blank in it, and no effect.
+    fn is_heading(&self, name: &[u8]) -> bool {
+        std::str::from_utf8(name).is_ok_and(|name| self.rules().is_without_effect(name))
     }
 
     fn parse_item(

@@ -25,6 +25,7 @@ mod spline;
 mod statement;
 mod subroutine;
 mod told_sweep;
+mod told_unit;
 
 use std::io::Read;
 use std::ops::Range;
@@ -246,6 +247,17 @@ impl<'r> Reader<'r> {
         self.check_subroutines_end().map(|()| false)
     }
 
+    /// Looks at the beginning of the text, before its first record.
+    fn begin(&mut self) -> Result<()> {
+        if !self.started {
+            self.lines.skip_mark().map_err(|error| self.read_failed(&error))?;
+            self.recognize_ahead();
+            self.refuse_nci()?;
+            self.started = true;
+        }
+        Ok(())
+    }
+
     fn read_one(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<bool> {
         if !self.pending.is_empty() {
             self.next_pending(record);
@@ -256,11 +268,7 @@ impl<'r> Reader<'r> {
             self.count(record);
             return Ok(true);
         }
-        if !self.started {
-            self.lines.skip_mark().map_err(|error| self.read_failed(&error))?;
-            self.recognize_ahead();
-            self.started = true;
-        }
+        self.begin()?;
         // A spline or a subroutine under way is no part of what a checkpoint keeps.
         let is_whole = !self.spline.is_under_way() && !self.subroutines.is_under_way();
         if self.seeking.is_due(self.number) && is_whole {

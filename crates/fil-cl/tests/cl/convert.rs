@@ -45,6 +45,7 @@ fn words_without_effect_become_notes() {
             "TPRINT / MILL 5",
             "$$ TOOL PATH / A,TOOL,MILL 5",
             "$$-> TLDATA / MILL, 5.0, 0.0, 50.0, 0.0, 0.0",
+            "UNITS / MM",
             "CUTTER / 5.0",
             "$$-> PAINT / COLOR, 31.0",
             "LOADTL / 3.0, OSETNO, 4.0",

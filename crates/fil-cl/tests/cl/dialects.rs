@@ -240,9 +240,9 @@ fn arcs_of_one_dialect_are_no_arcs_of_another() {
         let can = |dialect: &&ClDialect| read(text, Some(**dialect)).is_ok();
         ClDialect::ALL.iter().filter(can).map(|dialect| dialect.name()).collect()
     };
-    assert_eq!(read_by(creo), ["generic", "generic-left", "creo", "solidworks-cam"]);
+    assert_eq!(read_by(creo), ["generic", "generic-left", "creo", "solidworks-cam", "fusion"]);
     assert_eq!(read_by(nx), ["nx", "ffcam"]);
-    assert_eq!(read_by(solidworks), ["generic", "generic-left", "solidworks-cam"]);
+    assert_eq!(read_by(solidworks), ["generic", "generic-left", "solidworks-cam", "fusion"]);
     assert_eq!(read_by(camworks), ["generic-left", "camworks", "camworks-axis"]);
     let diag = refused(nx, None, ClCode::ForeignArc);
     let hint = diag.hint.as_ref().unwrap();
@@ -327,6 +327,9 @@ fn axes_that_are_none() {
     for axis in ["0,0,0", "0,0,0.999", "1,1,1", "0,0,2", "0,1E200,0", "0.1,0.1,0.1"] {
         for dialect in ClDialect::ALL {
             for word in ["GOTO", "FROM"] {
+                if (*dialect, word, axis) == (ClDialect::OrnlSlicer, "GOTO", "0,0,0") {
+                    continue;
+                }
                 let text = format!("{word}/1,2,3,{axis}\n");
                 refused(&text, Some(*dialect), ClCode::UnclearPoints);
             }
@@ -457,4 +460,100 @@ fn splines_of_nx_without_their_ends() {
     assert_eq!(ends.last(), Some(&[4.0, 4.0, 0.0]));
     refused(&spline("KNOT/0.5\nKNOT/0.9\n", 4), None, ClCode::BadSpline);
     refused(&spline(knots, 3), None, ClCode::MissingItem);
+}
+
+/// The unit that a text tells by its feeds.
+fn told(text: &str) -> Option<fil_cl::WordId> {
+    Reader::new(text.as_bytes(), "t", Options::default()).told_unit()
+}
+
+#[test]
+fn feeds_of_nx_tell_the_unit() {
+    let file = |tool: &str, feeds: &str| {
+        format!(
+            "TOOL PATH/A,TOOL,B\nTLDATA/MILL,{tool},0.,50.\n{feeds}GOTO/0.,0.,1.\nGOTO/30.,0.,1.\n"
+        )
+    };
+    assert_eq!(told(&file("10.", "FEDRAT/MMPM,250.\n")), Some(words::MM));
+    assert_eq!(told(&file("10.", "FEDRAT/mmpr,0.1\n")), Some(words::MM));
+    assert_eq!(told(&file("0.5", "FEDRAT/IPM,20.\n")), Some(words::INCHES));
+    assert_eq!(told(&file("1.5", "CYCLE/DRILL,FEDTO,-5.,IPR,.01\n")), Some(words::INCHES));
+    for (why, text) in [
+        ("no feed", file("10.", "")),
+        ("feeds of both", file("10.", "FEDRAT/MMPM,250.\nFEDRAT/IPM,10.\n")),
+        ("UNITS says it", file("10.", "UNITS/MM\nFEDRAT/MMPM,250.\n")),
+        ("a tool that is too small", file("0.5", "FEDRAT/MMPM,250.\n")),
+        ("a tool that is too large", file("10.", "FEDRAT/IPM,250.\n")),
+        ("no sign of NX", "FEDRAT/MMPM,250.\nGOTO/0.,0.,1.\nGOTO/30.,0.,1.\n".to_string()),
+    ] {
+        assert_eq!(told(&text), None, "{why}");
+    }
+    let without_tool = |way: &str| {
+        format!("TOOL PATH/A,TOOL,B\nFEDRAT/MMPM,9.\nGOTO/0.,0.,1.\nGOTO/{way},0.,1.\n")
+    };
+    assert_eq!(told(&without_tool("30.")), Some(words::MM));
+    assert_eq!(told(&without_tool("3.")), None);
+}
+
+#[test]
+fn told_unit_takes_nothing_away() {
+    let text = "TOOL PATH/A,TOOL,B\nTLDATA/MILL,10.,0.,50.\nFEDRAT/MMPM,250.\nGOTO/0.,0.,1.\nGOTO/30.,0.,1.\n";
+    let mut reader = Reader::new(text.as_bytes(), "t", Options::default());
+    assert_eq!(reader.told_unit(), Some(words::MM));
+    let (mut vocab, mut record, mut count) = (Vocabulary::new(), Record::default(), 0);
+    while reader.read(&mut vocab, &mut record).unwrap() {
+        count += 1;
+    }
+    assert_eq!(count, read(text, None).unwrap().0.len());
+}
+
+#[test]
+fn nci_of_mastercam_is_refused_with_its_name() {
+    let diag = refused("1050\n0 100 0 0. 0. 0.\n1000\n100 1 3\n", None, ClCode::BinaryData);
+    assert!(diag.message.contains("Mastercam"), "{diag}");
+    assert!(diag.hint.as_deref().unwrap_or_default().contains("NCI2APT"), "{diag}");
+}
+
+#[test]
+fn a_sign_behind_what_another_dialect_refuses_is_found() {
+    let text = "CUTTER/1.,0.,5.,\nOPFEATSTART/A\nOPFEATEND/A\nFINI\n";
+    assert_eq!(recognized(text), "camworks (told by line 2)");
+}
+
+#[test]
+fn notes_of_creo_are_none_of_its_signs_in_a_file_of_the_slicer() {
+    let text = "$$ ORNL SLICER 2\n$$-> CSYS / 1.0\nUNITS / MM\n";
+    assert_eq!(recognized(text), "ornl-slicer (told by line 1)");
+    let text = "PARTNO/'1001'\nUNITS/MM\n";
+    assert_eq!(recognized(text), "fusion (told by line 1)");
+}
+
+#[test]
+fn movnrb_of_creo_stands_beside_its_points() {
+    let text = "MULTAX/ON\nGOTO/0,0,0,0,0,1\nMOVNRB/5AXIS,LENGTH,10\nMOVNRB/ON,2,4,0,2,10.0\n\
+        MOVNRB/1,0,0,10,10\nMOVNRB/2,0,0,0,10,0,0\nMOVNRB/3,0,0,10,11,0,9.95\nMOVNRB/NEXT\n\
+        GOTO/10,0,0,0,0,1\nMOVNRB/OFF\nFINI\n";
+    let found = records(text, ClDialect::Creo);
+    let of_curve = found.iter().filter(|record| record.inert).count();
+    assert_eq!((found.len(), of_curve), (11, 7));
+    for (from, to) in [
+        ("MOVNRB/ON,2,4,0,2,10.0", "MOVNRB/ON,2"),
+        ("MOVNRB/2,0,0,0,10,0,0", "MOVNRB/2,0,0,0,10,0"),
+        ("MOVNRB/2,0,0,0,10,0,0", "MOVNRB/2,0,0,0,10,0,3"),
+        ("MOVNRB/NEXT", "MOVNRB/LAST"),
+        ("5AXIS,LENGTH", "6AXIS,LENGTH"),
+    ] {
+        refused(&text.replace(from, to), Some(ClDialect::Creo), ClCode::BadSpline);
+    }
+}
+
+#[test]
+fn tools_of_fusion_have_their_offset() {
+    for text in ["LOADTL/3, 0, 40.000000, 7\n", "LOADTL/3, IN, 0, LENGTH, 40, OSETNO, 7\n"] {
+        let found = records(text, ClDialect::Fusion);
+        let offset = [Word::Number(3.0), Word::Minor(words::OSETNO), Word::Number(7.0)];
+        assert_eq!(found[0].data, offset, "{text}");
+    }
+    let other = records("LOADTL/3, 1, 40.000000, 7\n", ClDialect::Fusion);
+    assert_eq!(other[0].data.len(), 4, "a pocket is not passed over");
 }

@@ -206,6 +206,10 @@ proptest! {
             .collect();
         let mut expected: Vec<Word> =
             values.iter().map(|value| Word::Number(value.parse().unwrap())).collect();
+        // A tool axis of no length is none where the slicer writes it.
+        if dialect == Some(ClDialect::OrnlSlicer) && expected.get(3..) == Some(&[Word::Number(0.0); 3]) {
+            expected.truncate(3);
+        }
         if multax && found.len() == 6 && expected.len() == 3 {
             expected.extend([0.0, 0.0, 1.0].map(Word::Number));
         }

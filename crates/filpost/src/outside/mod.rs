@@ -151,7 +151,8 @@ impl<'o, 'r> Outside<'o, 'r> {
     /// # Errors
     /// E0715 for a unit that the machine does not take.
     pub fn begin(&mut self) -> Result<(), Box<Diag>> {
-        self.report.unit = units::known_before(self.units, &self.post.control.commons)?;
+        let told = self.source.told_unit();
+        self.report.unit = units::known_before(self.units, told, &self.post.control.commons)?;
         if let Some((unit, _)) = self.report.unit {
             self.post.assume_unit(unit);
         }

@@ -207,10 +207,11 @@ impl<'r> ClPath<'r> {
         self
     }
 
-    /// The unit of a CL file that does not say it itself.
+    /// The unit of a CL file that does not say it itself; without it, what its feeds tell.
     pub fn in_unit(mut self, unit: Option<Unit>) -> Self {
-        self.state.unit = unit;
         self.given = unit.is_some();
+        let unit = unit.or_else(|| self.reader.told_unit().map(unit::of_word));
+        self.state.unit = unit;
         self.ready.extend(
             unit.map(|unit| Step { line: 0, what: ExpectedStep::Metric(unit.is_metric()) }),
         );

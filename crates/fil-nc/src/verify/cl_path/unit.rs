@@ -15,7 +15,12 @@ const MEASURES: [WordId; 7] =
 
 /// The unit of a UNITS statement.
 pub(super) fn said(record: &Record) -> Unit {
-    if record.has(w::INCHES) { Unit::Inch } else { Unit::Mm }
+    of_word(if record.has(w::INCHES) { w::INCHES } else { w::MM })
+}
+
+/// The unit of the word INCHES, and of MM.
+pub(super) fn of_word(word: WordId) -> Unit {
+    if word == w::INCHES { Unit::Inch } else { Unit::Mm }
 }
 
 impl ClPath<'_> {

@@ -140,8 +140,11 @@ fn offset_word(control: &mut Control, given: Option<(f64, u16)>) -> Result<()> {
     let of_tool = control.state.get(modal::TOOL).filter(|_| from_tool).map(|tool| (tool as f64, 0));
     let Some((offset, word)) = given.or(of_tool) else {
         if from_tool {
-            return PostCode::WordForm
-                .err("CUTCOM: no offset number, and the tool in the spindle is not known");
+            let message = "CUTCOM: no offset number, and the tool in the spindle is not known";
+            return Err(Box::new(PostCode::WordForm.diag(message).hint(
+                "put LOADTL / n before it, or write CUTCOM / LEFT, n; where the control takes the \
+                 tool in the spindle, set tool.diameter_from_tool to 0",
+            )));
         }
         if !control.commons.read(loc::LATHE_DIAMETER) {
             let message = "CUTCOM: no offset number, and none is taken from the tool";
