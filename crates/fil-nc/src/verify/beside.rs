@@ -170,14 +170,14 @@ impl<C: Steps> Verifier<'_, C> {
     }
 
     pub(super) fn end(&mut self, cl_line: u32, end: End) {
+        if self.expected.ends_milling(self.settings) {
+            self.ask_auxiliary(cl_line, self.settings.spindle_mode_code(false));
+        }
         self.go_home_at_end(cl_line);
         self.pass(cl_line);
         while !self.at_end() {
             self.extra(1, cl_line);
             self.pass(cl_line);
-        }
-        if self.expected.ends_milling(self.settings) {
-            self.ask_auxiliary(cl_line, self.settings.spindle_mode_code(false));
         }
         self.expected.ends_counting_side(self.settings);
         self.take_blocks(&self.settings.end_blocks());

@@ -23,6 +23,10 @@ impl<C: Steps> Verifier<'_, C> {
             && (self.settings.tool_is_modal() || self.next_tool() != Some(number));
         let changes = !same && self.settings.calls_tools();
         if !changes {
+            if !same {
+                // The operator changes the tool; the machine goes there all the same.
+                self.go_to_change_position(cl_line);
+            }
             self.expected.change_tool(number, offset, self.settings);
             return self.expected.take_first_offset(self.settings);
         }
