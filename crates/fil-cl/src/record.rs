@@ -328,6 +328,24 @@ impl Record {
         self.tool_measure(1)
     }
 
+    /// Length of the cutting part that the record gives a tool: the seventh value of CUTTER, the
+    /// third of TLDATA; in the unit of the file.
+    pub fn tool_length(&self) -> Option<f64> {
+        self.tool_measure(if self.major == words::CUTTER { 6 } else { 2 })
+    }
+
+    /// Angle of the bottom of the tool to a plane square to its axis, degrees: 31 of a drill with
+    /// a point of 118. The fifth value of CUTTER; from the point of a drill of TLDATA.
+    pub fn tool_bottom_angle(&self) -> Option<f64> {
+        match (self.major, self.data.first()) {
+            (words::CUTTER, _) => self.tool_measure(4),
+            (_, Some(Word::Minor(words::DRILL))) => {
+                self.tool_measure(3).map(|point| 90.0 - point / 2.0)
+            }
+            _ => None,
+        }
+    }
+
     fn tool_measure(&self, at: usize) -> Option<f64> {
         let values = match (self.major, self.data.first()) {
             (words::CUTTER, _) => &self.data[..],

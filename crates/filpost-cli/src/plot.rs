@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use filpost::cl::reader::Options;
 use filpost::map::MapReader;
-use filpost::nc::plot::{Drawing, View, html, svg};
+use filpost::nc::plot::{Drawing, Trace, View, html, svg};
 use filpost::nc::source::Source;
 use filpost::plot::{self, ClText, Text};
 use filpost::{Error, files, select};
@@ -14,6 +14,9 @@ use crate::args::{PlotArgs, RawRecords, Seen};
 use crate::output::{self, Target};
 use crate::setup::{From, Named};
 use crate::{Status, post, setup};
+
+/// Most notes on lines that are not drawn.
+const LEFT_OUT: usize = 8;
 
 /// What is drawn, by the ending of the output file.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -28,48 +31,78 @@ enum Form {
 /// Files that can't be read or written, a program that has no sure meaning, a map
 /// of another run.
 pub fn run(args: &PlotArgs) -> Result<Status, Error> {
-    let Some(form) = form(args.output.as_deref()) else {
+    let named = args
+        .output
+        .clone()
+        .or_else(|| std::io::stdout().is_terminal().then(|| page_beside(&args.file)));
+    let named = named.as_deref();
+    let Some(form) = form(named) else {
         output::say("error: the name of the picture must end in .svg or .html");
         return Ok(Status::Usage);
     };
-    if args.output.is_none() && std::io::stdout().is_terminal() {
-        output::say(
-            "error: SVG is not printed on a terminal; name a file: -o plot.html for a page that \
-             zooms, or -o plot.svg",
-        );
-        return Ok(Status::Usage);
-    }
     let bytes = read(&args.file)?;
     let name = output::input_name(&args.file);
     let text = Text { name: &name, bytes: &bytes };
     let is_cl = plot::is_cl(&bytes);
-    if is_cl && (args.cl.is_some() || args.map.is_some()) {
-        output::say(&format!("error: {name} is a CL file; --cl and --map go with an NC program"));
+    if is_cl && (args.cl.is_some() || args.map.is_some() || args.second.is_some()) {
+        output::say(&format!(
+            "error: {name} is a CL file; --cl, --second and --map go with an NC program"
+        ));
         return Ok(Status::Usage);
     }
-    let named = [Some(&args.file), args.cl.as_ref(), args.map.as_ref()];
-    let mut inputs: Vec<PathBuf> = named.into_iter().flatten().cloned().collect();
+    let read = [Some(&args.file), args.cl.as_ref(), args.second.as_ref(), args.map.as_ref()];
+    let mut inputs: Vec<PathBuf> = read.into_iter().flatten().cloned().collect();
     let (drawing, machine) = if is_cl {
         (plot::cl_file(cl_text(args, text)?)?, None)
     } else {
         let (drawing, title) = program(args, text, &mut inputs)?;
         (drawing, Some(title))
     };
-    let output = output::named(args.output.as_deref());
+    let output = output::named(named);
     output::refuse_over([output], inputs.iter().map(PathBuf::as_path))?;
     let picture = match form {
         Form::Svg => svg(&drawing, &views(&args.view)),
         Form::Html => html(&drawing),
     };
     let write = |out: &mut dyn Write| out.write_all(picture.as_bytes());
-    Target::new(args.output.as_deref()).write(|mut out| {
-        let path = args.output.clone().unwrap_or_default();
-        write(&mut out).map_err(|error| files::cant_write(&path, &error))
+    Target::new(named).write(|mut out| {
+        let path = named.unwrap_or(Path::new(""));
+        write(&mut out).map_err(|error| files::cant_write(path, &error))
     })?;
+    tell_left_out(&name, &drawing.path);
     let motions = crate::summary::counted(drawing.path.pieces.len() as u64, "motion");
     let machine = machine.map_or(String::new(), |title| format!(" on {title}"));
-    output::say(&format!("{name}: {motions} drawn{machine}"));
+    let into = match named {
+        Some(path) if args.output.is_none() => format!(" to {}", path.display()),
+        _ => String::new(),
+    };
+    output::say(&format!("{name}: {motions} drawn{machine}{into}"));
     Ok(Status::Done)
+}
+
+/// The page of a file, where no output is named.
+fn page_beside(file: &Path) -> PathBuf {
+    if file.as_os_str() == "-" {
+        return PathBuf::from("plot.html");
+    }
+    let mut name = file.as_os_str().to_os_string();
+    name.push(".html");
+    PathBuf::from(name)
+}
+
+/// Notes which lines of a program are not drawn.
+fn tell_left_out(name: &str, path: &Trace) {
+    for left_out in path.left_out.iter().take(LEFT_OUT) {
+        output::say(&format!("note: {name}:{}: {left_out}", left_out.line));
+    }
+    let more = path.left_out.iter().skip(LEFT_OUT).map(|left_out| u64::from(left_out.count));
+    match more.sum() {
+        0 => {}
+        more => output::say(&format!(
+            "note: {name}: {} left out too",
+            crate::summary::counted(more, "more line")
+        )),
+    }
 }
 
 fn options(args: &PlotArgs) -> Result<Options, Error> {
@@ -97,6 +130,12 @@ fn program(
         let name = output::input_name(path);
         let cl = cl_text(args, Text { name: &name, bytes })?;
         plot::lay_under(&mut drawing, cl, program.commons())?;
+    }
+    if let Some(path) = &args.second {
+        let (name, bytes) = (output::input_name(path), read(path)?);
+        let second = Text { name: &name, bytes: &bytes };
+        plot::lay_program_under(&mut drawing, second, program.commons())?;
+        tell_left_out(&name, drawing.under.as_ref().unwrap_or(&drawing.path));
     }
     if let Some(path) = &args.map {
         origins(&mut drawing, nc, path, inputs)?;

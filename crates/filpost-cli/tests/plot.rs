@@ -107,6 +107,78 @@ fn a_program_whose_machine_nobody_names_is_read_by_the_family_of_its_text() {
 }
 
 #[test]
+fn a_program_is_drawn_as_far_as_its_machine_has_its_words() {
+    let place = Folder::new();
+    place.write(
+        "out.nc",
+        "T1 M6\nG0 G54 X0. Y0.\nG43 H1 Z5.\n#1=#5001\nG0 X0. Y0. Z4.\nG1 Z-1. F100.\n#2=[2+3]\nX#2\n\
+         G187 P1\nX9.\nG0 X8. Y8. Z9.\nG1 Z1. F90.\nM30\n",
+    );
+    let output = place.run(&["plot", "out.nc", "-p", "fanuc-mill", "-o", "path.html"]);
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    let unknown = "out.nc:4: not drawn: `#` is not a word of an NC program";
+    assert!(said.contains(unknown), "{said}");
+    assert!(said.contains("out.nc:9: not drawn: the machine has no G187"), "{said}");
+    // What follows the block is not joined to what came before it.
+    assert!(said.contains("out.nc:10: not drawn: no G word"), "{said}");
+    assert!(said.contains("out.nc: 3 motions drawn"), "{said}");
+    let page = place.read("path.html").expect("the page");
+    assert!(page.contains("\"line 9: not drawn: the machine has no G187\""), "the gaps");
+}
+
+/// What a refused block says of the unit and of axis words holds, and the block after a head that
+/// is refused is read.
+#[test]
+fn gaps_do_not_change_what_numbers_mean() {
+    let place = Folder::new();
+    place.write(
+        "out.nc",
+        "#1=#5001\nG20 G90\nG0 X0. Y0. Z1.\nG91 G187 P1\nG90 G0 X0. Y0. Z1.\nG91 G187\nG0 X1. Y1. Z1.\n\
+         G90 G0 X0. Y0. Z0.\nX1.\nM30\n",
+    );
+    let output = place.run(&["plot", "out.nc", "-p", "fanuc-mill", "-o", "path.html"]);
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("note: out.nc:1: not drawn: `#`"), "{said}");
+    assert!(!said.contains("out.nc:2"), "{said}");
+    assert!(said.contains("out.nc: 1 motion drawn"), "{said}");
+    let page = place.read("path.html").expect("the page");
+    assert!(page.contains("X 0 to 1 · Y 0 to 0 · Z 0 to 0 inch"), "the path is in inch");
+}
+
+#[test]
+fn contour_of_a_roughing_cycle_that_the_machine_lacks_is_drawn() {
+    let place = Folder::new();
+    place.write(
+        "out.nc",
+        "T0101\nG97 S500 M3\nG0 X60. Z5.\nG71 U2. R1.\nG71 P10 Q20 U.5 W.1 F.3\nN10 G0 X20. Z5.\n\
+         G1 Z-10. F.2\nX40. Z-20.\nN20 X60.\nG70 P10 Q20\nG0 X100. Z50.\nM30\n",
+    );
+    let output = place.run(&["plot", "out.nc", "-p", "haas-lathe", "-o", "path.svg"]);
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("out.nc:4: 2 lines not drawn: the machine has no G71"), "{said}");
+    assert!(said.contains("out.nc:10: not drawn: the machine has no G70"), "{said}");
+    assert!(said.contains("out.nc: 3 motions drawn"), "{said}");
+}
+
+#[test]
+fn a_second_program_lies_under_the_first() {
+    let place = Folder::new();
+    place.run(&["post", "a part.ncl", "-o", "out.nc"]);
+    let proven = place.read("out.nc").expect("the program").replace("X30.", "X31.");
+    place.write("proven.nc", &proven);
+    let output = place.run(&["plot", "out.nc", "--second", "proven.nc", "-o", "path.html"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let page = place.read("path.html").expect("the page");
+    assert!(page.contains("\"underName\":\"second program\""), "its name is in the page");
+    assert!(page.contains("\"under\":{"), "its path is in the page");
+    let both = place.run(&["plot", "out.nc", "--second", "proven.nc", "--cl", "a part.ncl"]);
+    assert_eq!(both.status.code(), Some(2));
+}
+
+#[test]
 fn options_of_a_program_do_not_go_with_a_cl_file() {
     let place = Folder::new();
     let output = place.run(&["plot", "a part.ncl", "--cl", "a part.ncl"]);

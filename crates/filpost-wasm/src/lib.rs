@@ -83,6 +83,8 @@ fn read(request: Value) -> Result<Value, Misuse> {
         "post" => post::post(&job::Job::read(fields)?),
         #[cfg(feature = "plot")]
         "plot" => plot::Plot::read(fields)?.draw(),
+        #[cfg(feature = "plot")]
+        "columns" => plot::Plot::read(fields)?.columns(),
         #[cfg(feature = "post")]
         "findings" => Edited::read(fields)?.findings(),
         #[cfg(feature = "post")]

@@ -2,20 +2,22 @@
 
 use std::collections::HashMap;
 
+use filpost::Commons;
 use filpost::Error;
-use filpost::nc::plot::{LineCause, html};
-use filpost::plot::{self, Text};
+use filpost::cl::reader::Options;
+use filpost::nc::plot::{Drawing, LineCause, base64, columns, html};
+use filpost::plot::{self, ClText, Text};
 use serde_json::{Value, json};
 
 use crate::fields::{Fields, Named};
 use crate::machine::MachineOf;
 use crate::{Fault, Misuse, refused};
 
-/// A request to draw: the machine, the program and the `origins` of the answer that brought
-/// it, and the texts that they are lines of.
+/// A request to draw: the machine, the program (a request for columns may leave it out) and the
+/// `origins` of the answer that brought it, and the texts that they are lines of.
 pub(crate) struct Plot {
     machine: MachineOf,
-    nc: String,
+    nc: Option<String>,
     origins: Vec<Value>,
     cl: String,
     cl_name: String,
@@ -26,7 +28,7 @@ impl Plot {
     pub fn read(mut fields: Fields) -> Result<Self, Misuse> {
         let plot = Plot {
             machine: MachineOf::read(&mut fields)?,
-            nc: fields.needed("nc")?,
+            nc: fields.text("nc")?,
             origins: fields.list("origins")?,
             cl: fields.text("cl")?.unwrap_or_default(),
             cl_name: fields.text("cl_name")?.unwrap_or_else(|| "part.ncl".to_string()),
@@ -44,13 +46,40 @@ impl Plot {
         }
     }
 
+    /// The answer: `columns`, the path as [`columns`] gives it, in base 64; or `errors`.
+    pub fn columns(&self) -> Value {
+        match self.path() {
+            Ok(path) => json!({ "columns": base64(&columns(&path)) }),
+            Err(error) => refused(&Fault::Setup(error), &[]),
+        }
+    }
+
+    /// The path of the program, with the tools of the CL file; without a program that of the CL
+    /// file.
+    fn path(&self) -> Result<Drawing, Error> {
+        let cl = ClText {
+            text: Text { name: &self.cl_name, bytes: self.cl.as_bytes() },
+            options: Options::default(),
+            unit: None,
+        };
+        let Some(nc) = &self.nc else { return plot::cl_file(cl) };
+        let commons = self.machine.builder().build_machine()?;
+        let mut drawing = self.program(nc, &commons)?;
+        // A program can be drawn without its CL file, whatever that one lacks.
+        let _ = plot::take_tools(&mut drawing, cl, &commons);
+        Ok(drawing)
+    }
+
+    fn program(&self, nc: &str, commons: &Commons) -> Result<Drawing, Error> {
+        let encoded = filpost::tape_style::page(commons).encode(nc);
+        let bytes = encoded.as_deref().unwrap_or(nc.as_bytes());
+        plot::program(Text { name: "the program", bytes }, commons)
+    }
+
     /// The page with the path of the program, whose lines name what made them.
     fn page(&self) -> Result<String, Error> {
         let commons = self.machine.builder().build_machine()?;
-        let nc = filpost::tape_style::page(&commons).encode(&self.nc);
-        let bytes = nc.as_deref().unwrap_or(self.nc.as_bytes());
-        let text = Text { name: "the program", bytes };
-        let mut drawing = plot::program(text, &commons)?;
+        let mut drawing = self.program(self.nc.as_deref().unwrap_or_default(), &commons)?;
         let notes = &mut drawing.notes;
         notes.source_name.clone_from(&self.cl_name);
         notes.source = Some(self.cl.clone());

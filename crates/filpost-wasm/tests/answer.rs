@@ -32,6 +32,46 @@ fn a_program_comes_with_what_made_its_lines() {
     assert_eq!(unknown["errors"][0]["code"], "E0703");
 }
 
+/// The head of columns: JSON after a mark and its length.
+fn head(answer: &Value) -> Value {
+    let base64 = answer["columns"].as_str().unwrap_or_else(|| panic!("{answer}"));
+    let digit = |byte: u8| match byte {
+        b'A'..=b'Z' => byte - b'A',
+        b'a'..=b'z' => byte - b'a' + 26,
+        b'0'..=b'9' => byte - b'0' + 52,
+        b'+' => 62,
+        _ => 63,
+    };
+    let mut bytes = Vec::new();
+    for four in base64.trim_end_matches('=').as_bytes().chunks(4) {
+        let bits = four.iter().fold(0u32, |bits, byte| bits << 6 | u32::from(digit(*byte)));
+        let bits = bits << (6 * (4 - four.len()) + 8);
+        bytes.extend(&bits.to_be_bytes()[..four.len() * 6 / 8]);
+    }
+    assert_eq!(&bytes[..4], b"FPV1");
+    let length = u32::from_le_bytes(bytes[4..8].try_into().unwrap()) as usize;
+    serde_json::from_slice(&bytes[8..8 + length]).unwrap()
+}
+
+#[test]
+fn the_path_of_a_program_comes_as_columns_with_the_tools_of_its_cl_file() {
+    let cl = "UNITS / MM\nCUTTER / 10, 2\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\n\
+              GOTO / 4, 2, 3\nFINI\n";
+    let nc = ask(&json!({ "do": "post", "ready": "fanuc-mill", "cl": cl }))["nc"].clone();
+    let program = ask(&json!({ "do": "columns", "ready": "fanuc-mill", "nc": nc, "cl": cl }));
+    let program = head(&program);
+    assert_eq!(program["columns"]["lines"][2], 1);
+    assert_eq!(program["columns"]["points"][2], 6);
+    let tool = json!({ "number": 1, "diameter": 10, "corner": 2, "bottom": 0, "length": null });
+    assert_eq!(program["tools"], json!([tool]));
+    assert_eq!(program["leftOut"], json!([]));
+    let cl_path = head(&ask(&json!({ "do": "columns", "ready": "fanuc-mill", "cl": cl })));
+    assert_eq!(cl_path["columns"]["lines"][2], 1);
+    let part = nc.as_str().unwrap().replace("M30", "G65 P1\nM30");
+    let part = ask(&json!({ "do": "columns", "ready": "fanuc-mill", "nc": part }));
+    assert_eq!(head(&part)["leftOut"][0]["why"], "the machine has no G65");
+}
+
 #[test]
 fn what_is_refused_has_no_program() {
     let wrong = CL.replace("GOTO / 1", "GOTO / 1,1");

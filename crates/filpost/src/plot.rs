@@ -7,7 +7,7 @@ use fil_machine::Unit;
 use fil_machine::commons::{Commons, Kind};
 use fil_nc::dialect::Dialect;
 use fil_nc::forward::Forward;
-use fil_nc::plot::{Drawing, LineCause, Notes, Trace, cl_trace, nc_trace};
+use fil_nc::plot::{Drawing, LineCause, Notes, ToolShape, Trace, cl_tools, cl_trace, nc_trace};
 use fil_post::FilLine;
 use fil_text::CodePage;
 
@@ -48,6 +48,12 @@ impl ClText<'_> {
         let reader = Reader::new(bytes, name, self.options);
         cl_trace(reader, name, self.unit, shift).map_err(Error::Run)
     }
+
+    /// The tools whose shape the file gives.
+    fn tools(&self) -> Result<Vec<ToolShape>, Error> {
+        let Text { name, bytes } = self.text;
+        cl_tools(Reader::new(bytes, name, self.options), self.unit).map_err(Error::Run)
+    }
 }
 
 /// True when a text is a CL file: it has comments with `$$`, or statements with a
@@ -73,6 +79,7 @@ pub fn program(nc: Text<'_>, commons: &Commons) -> Result<Drawing, Error> {
         path: nc_trace(nc.bytes, nc.name, &dialect, &forward).map_err(Error::Run)?,
         lathe: dialect.is_lathe(),
         diameter: dialect.counts_diameters(),
+        forward: forward.has_rotary().then_some(forward),
         notes: Notes { text: nc_text(nc.bytes, dialect.page()), ..Notes::default() },
         ..Drawing::default()
     })
@@ -83,10 +90,10 @@ pub fn program(nc: Text<'_>, commons: &Commons) -> Result<Drawing, Error> {
 /// # Errors
 /// What the CL reader refuses; a file whose unit nobody says.
 pub fn cl_file(cl: ClText<'_>) -> Result<Drawing, Error> {
-    let path = cl.trace([0.0; 3])?;
+    let (path, tools) = (cl.trace([0.0; 3])?, cl.tools()?);
     let cl = cl.text;
     let notes = notes(cl.bytes);
-    Ok(Drawing { title: cl.name.to_string(), path, notes, ..Drawing::default() })
+    Ok(Drawing { title: cl.name.to_string(), path, tools, notes, ..Drawing::default() })
 }
 
 /// Lays the path of a CL file under that of a program for the machine of these
@@ -108,9 +115,41 @@ pub fn lay_under(
     });
     drawing.under = Some(cl.trace(shift)?);
     drawing.under_name = "CL file";
+    drawing.tools = cl.tools()?;
     drawing.take_tool_axes();
     if cl.text.bytes.len() <= LONGEST_SOURCE {
         drawing.under_notes = notes(cl.text.bytes);
+    }
+    Ok(())
+}
+
+/// Lays the path of a second program for the same machine under that of the first.
+///
+/// # Errors
+/// As [`program`].
+pub fn lay_program_under(
+    drawing: &mut Drawing,
+    second: Text<'_>,
+    commons: &Commons,
+) -> Result<(), Error> {
+    let under = program(second, commons)?;
+    drawing.under = Some(under.path);
+    drawing.under_name = "second program";
+    drawing.under_notes = under.notes;
+    Ok(())
+}
+
+/// Takes from a CL file what a program does not give: the shape of its tools and, on a lathe,
+/// how its live tools lie.
+///
+/// # Errors
+/// As [`lay_under`].
+pub fn take_tools(drawing: &mut Drawing, cl: ClText<'_>, commons: &Commons) -> Result<(), Error> {
+    if drawing.lathe {
+        lay_under(drawing, cl, commons)?;
+        drawing.under = None;
+    } else {
+        drawing.tools = cl.tools()?;
     }
     Ok(())
 }

@@ -153,6 +153,11 @@ fn the_page_draws_tells_and_zooms() {
     let whole = said["whole"].as_f64().unwrap();
     assert!((0.9..1.1).contains(&whole), "{said:#}");
     assert!(text("extent").ends_with("Z 0 to 20 mm"), "{said:#}");
+    assert!(said["dropped"][0].as_str().unwrap().ends_with("motions under the path"), "{said:#}");
+    let other = said["dropped"][1].as_str().unwrap();
+    assert!(other.starts_with("part.nc can't be shown: it is no page"), "{said:#}");
+    assert!(text("underLegend").contains("proven.html"), "{said:#}");
+    assert_eq!(said["missing"], Value::Null, "{said:#}");
     let fil =
         said["rows"].as_array().expect("the program").iter().any(|row| row == "6N40 G0 X0. Y0.");
     assert!(fil, "{said:#}");
@@ -293,6 +298,19 @@ fn texts_of_a_program_stay_texts() {
         "1(</script><script>document.title=1</script> \u{424}\u{440}\u{435}\u{437}\u{430} & <!--)";
     assert_eq!(rows[0], first, "{said:#}");
     assert_eq!(rows[4], "5X50. (&lt; \u{2028} {{data}} \u{43e}\u{43a})", "{said:#}");
+}
+
+/// A program with words that the machine lacks is drawn as far as it goes.
+#[test]
+fn gaps_of_a_path_are_listed() {
+    let Some(browser) = browser::program() else { return };
+    let nc = "G21 G90 G94 G17\n#1=#5001\nG0 X0. Y0. Z5.\nG1 Z0. F100.\nG65 P9\nX50.\nG0 X0. Y9. Z5.\nG1 Z1.\nM30\n";
+    let said = said(&browser, &page_of("fanuc-mill", "out.nc", nc));
+    assert_eq!(said["error"], Value::Null, "{said:#}");
+    let missing = said["missing"].as_str().unwrap_or_default();
+    assert!(missing.contains("line 2: not drawn: `#`"), "{said:#}");
+    assert!(missing.contains("line 5: not drawn: the machine has no G65"), "{said:#}");
+    assert!(missing.contains("line 6: not drawn: no G word"), "{said:#}");
 }
 
 #[test]

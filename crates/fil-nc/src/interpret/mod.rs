@@ -126,6 +126,16 @@ impl Events for Running<'_> {
 }
 
 impl Running<'_> {
+    /// Goes on after a refusal, for a picture of what is left: the refused line has no effect, and
+    /// positions and motion functions are unknown until the program gives them again.
+    pub(crate) fn go_on(&mut self) {
+        match &mut self.control {
+            Control::WordAddress(program) => program.forget(),
+            Control::Klartext(program) => program.forget(),
+            Control::Sinumerik(program) => program.forget(),
+        }
+    }
+
     /// The note on a program that is not for the family of the machine. A text without
     /// signs says nothing: any family may have such a program.
     #[cold]

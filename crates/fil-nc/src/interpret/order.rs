@@ -59,13 +59,21 @@ pub(super) struct Order {
     marked: bool,
     /// Why a line of the head is no block; it may be a label.
     label: Option<Box<Diag>>,
+    /// It was refused at the block after it.
+    refused_label: bool,
     /// The tape needs an end code before its last mark.
     has_end: bool,
 }
 
 impl Order {
     pub(super) fn new(dialect: &Dialect) -> Self {
-        Order { part: Part::Head, marked: false, label: None, has_end: dialect.has(Habit::HasEnd) }
+        Order {
+            part: Part::Head,
+            marked: false,
+            label: None,
+            refused_label: false,
+            has_end: dialect.has(Habit::HasEnd),
+        }
     }
 
     /// Takes the next line; true for a block that is to be run.
@@ -88,6 +96,7 @@ impl Order {
             return Ok(false);
         }
         if let Some(label) = self.label.take() {
+            self.refused_label = true;
             return Err(label.into());
         }
         match self.part {
@@ -101,6 +110,11 @@ impl Order {
             Part::Head => self.part = Part::Body,
         }
         Ok(true)
+    }
+
+    /// True once after a line of the head was refused at the block after it.
+    pub(super) fn take_refused_label(&mut self) -> bool {
+        std::mem::take(&mut self.refused_label)
     }
 
     /// The program has ended.
@@ -137,6 +151,7 @@ impl Order {
     /// Refuses a text that ends too early; `outside`: no subprogram is being run.
     pub(super) fn check_end(&mut self, outside: bool) -> Result<(), Refused> {
         if let Some(label) = self.label.take() {
+            self.refused_label = true;
             return Err(label.into());
         }
         match self.part {

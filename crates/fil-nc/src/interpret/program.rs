@@ -76,6 +76,18 @@ impl<'a> Program<'a> {
         }
     }
 
+    /// Goes on after a refused line.
+    pub(super) fn forget(&mut self) {
+        if self.order.take_refused_label() {
+            // What was refused is a line before this one, which is read again.
+            self.lines.go_to(self.offset);
+            self.number = self.number.saturating_sub(1);
+        } else {
+            self.state.keep_meanings(&self.block);
+        }
+        self.state.forget();
+    }
+
     /// Runs the next line; false behind the last.
     pub(super) fn run_line(
         &mut self,

@@ -10,6 +10,7 @@ use crate::motion::{
     Arc, Compensation, Course, DRILLED, Event, Modes, Move, OtherPlane, PlaneModes, Position, Rate,
     SpindleModes, StartMode, Tilt, unit,
 };
+use crate::text::Block;
 
 /// X, Y, Z in mm, primary and secondary rotary axis in degrees.
 pub(super) type Axes = [f64; 5];
@@ -167,6 +168,28 @@ impl<'d> State<'d> {
             events: Vec::new(),
             words: Words::default(),
         }
+    }
+
+    /// Takes the unit, the meaning of axis words and of F, and the plane that a refused block
+    /// gives: they hold, whatever else the block does.
+    pub(super) fn keep_meanings(&mut self, block: &Block) {
+        self.line = block.line;
+        let mut words = std::mem::take(&mut self.words);
+        words.read_meanings(block, self.dialect);
+        // What could be refused is not among them.
+        let _ = self.modes(&mut words);
+        self.words = words;
+    }
+
+    /// Goes on after a refused block: which axes it moves, and which functions it leaves in
+    /// force, is unknown until the program gives them again.
+    pub(super) fn forget(&mut self) {
+        self.known = std::array::from_fn(|axis| self.dialect.axes[axis].scale.is_none());
+        self.motion = None;
+        self.since = SinceMotion::default();
+        self.cycle.active = None;
+        self.threads = ThreadCycles::default();
+        self.events.clear();
     }
 
     /// Remembers where the plane in force was said first.

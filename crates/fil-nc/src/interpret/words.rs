@@ -112,6 +112,20 @@ impl Words {
         Ok(())
     }
 
+    /// Takes of a refused block the functions that say what numbers mean; what was sorted before
+    /// is forgotten.
+    pub(super) fn read_meanings(&mut self, block: &Block, dialect: &Dialect) {
+        self.functions.clear();
+        self.auxiliaries.clear();
+        self.items.clear();
+        for word in block.words.iter().filter(|word| word.letter == b'G' && word.index.is_none()) {
+            // A function that the machine lacks is what the block is refused for.
+            let _ = self.add_function(word, dialect);
+        }
+        let meanings = [Group::Units, Group::Positions, Group::Feed, Group::Plane, Group::Diameter];
+        self.functions.retain(|(function, _)| meanings.contains(&function.group()));
+    }
+
     fn add_function(&mut self, word: &Word, dialect: &Dialect) -> Result<(), Fault> {
         let tenths = (word.number.value() * 10.0).round();
         let exact = (tenths / 10.0 - word.number.value()).abs() < 1e-9;

@@ -39,7 +39,8 @@ pub(super) fn packed(bytes: &[u8]) -> String {
     base64(&miniz_oxide::deflate::compress_to_vec(bytes, EFFORT))
 }
 
-fn base64(bytes: &[u8]) -> String {
+/// Bytes in base 64, with the signs that fill up the last four digits.
+pub fn base64(bytes: &[u8]) -> String {
     let mut out = String::with_capacity(bytes.len() / 3 * 4 + 4);
     for chunk in bytes.chunks(3) {
         let bits = chunk.iter().fold(0u32, |bits, byte| bits << 8 | u32::from(*byte))

@@ -3,8 +3,10 @@
 //! [`nc_trace`] and [`cl_trace`] make a [`Trace`] of tool tips in the part frame,
 //! so that the path of a table that turns is seen on the part. [`svg`] draws
 //! views of it, [`html`] a page of one file that zooms, turns and tells of each
-//! motion what made it.
+//! motion what made it; [`columns`] is the path as plain columns for a viewer in three
+//! dimensions.
 
+mod columns;
 mod encode;
 mod html;
 mod labels;
@@ -14,20 +16,27 @@ mod program;
 mod sample;
 mod simplify;
 mod svg;
+mod time;
+mod tools;
 mod trace;
+mod variables;
 mod view;
 
 #[cfg(test)]
 mod tests;
 
+pub use columns::columns;
+pub use encode::base64;
 pub use html::html;
 pub use program::nc_trace;
 pub use svg::svg;
+pub use tools::{ToolShape, cl_tools};
 pub use trace::cl_trace;
 pub use view::{Extent, View};
 
 use fil_machine::Unit;
 
+use crate::forward::Forward;
 use crate::motion::{Rate, Speed, Spindle};
 
 /// A point of the part frame, mm.
@@ -124,6 +133,26 @@ pub struct InForce {
     pub fixture: Option<u32>,
 }
 
+/// Lines of a program that have no certain meaning on the machine, and are left out of a picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// The first of them, 1-based.
+    pub line: u32,
+    /// How many there are, one after the other, with the same reason.
+    pub count: u32,
+    /// The reason.
+    pub why: String,
+}
+
+impl std::fmt::Display for LeftOut {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.count {
+            1 => write!(f, "not drawn: {}", self.why),
+            count => write!(f, "{count} lines not drawn: {}", self.why),
+        }
+    }
+}
+
 /// A path of the tool tip in the part frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
@@ -138,11 +167,26 @@ pub struct Trace {
     /// Directions of the tool, each from the piece on that ends with it; none where the tool
     /// always stands upright.
     pub axes: Vec<(usize, Point)>,
+    /// Positions of the primary and the secondary rotary axis, degrees, each at the end of a piece
+    /// and of those after it; none on a machine without them, and for a CL file.
+    pub rotary: Vec<(usize, [f64; 2])>,
+    /// Lines of a program that are not drawn, in the order in which they are run.
+    pub left_out: Vec<LeftOut>,
     /// Lengths are told in inch, as in the program or the CL file; else in mm.
     pub inch: bool,
 }
 
 impl Trace {
+    /// Length of a piece, mm.
+    fn length(&self, piece: usize) -> f64 {
+        let piece = &self.pieces[piece];
+        let step = |pair: &[Point]| {
+            let ways = [0, 1, 2].map(|n| pair[1][n] - pair[0][n]);
+            ways.map(|way| way * way).iter().sum::<f64>().sqrt()
+        };
+        self.points[piece.start..piece.end].windows(2).map(step).sum()
+    }
+
     /// The unit in which lengths are told.
     pub fn unit(&self) -> Unit {
         if self.inch { Unit::Inch } else { Unit::Mm }
@@ -211,6 +255,10 @@ pub struct Drawing {
     pub notes: Notes,
     /// Notes on the lines of the path under it.
     pub under_notes: Notes,
+    /// Tools whose shape is known.
+    pub tools: Vec<ToolShape>,
+    /// The rotary axes, primary first; `None` without any.
+    pub forward: Option<Forward>,
 }
 
 impl Drawing {

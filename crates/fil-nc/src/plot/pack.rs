@@ -12,6 +12,9 @@ const FINE: f64 = 1e4;
 /// Most steps over the longest side of a path: the page keeps them in 32 bits.
 const STEPS: f64 = 1e9;
 
+/// Most notes on lines that are not drawn.
+const LEFT_OUT: usize = 1000;
+
 /// The grid on which the points of a page lie.
 pub(super) struct Grid {
     /// Its origin, mm.
@@ -50,6 +53,9 @@ pub(super) fn trace(trace: &Trace, notes: &Notes, source: &str, grid: &Grid) -> 
     }));
     let causes = columns(notes.causes.iter().map(|cause| [cause.line.into(), cause.stack.into()]));
     let stacks: Vec<String> = notes.stacks.iter().map(|stack| json(stack)).collect();
+    let left_out = trace.left_out.iter().take(LEFT_OUT);
+    let left_out: Vec<String> =
+        left_out.map(|left_out| json(&format!("line {}: {left_out}", left_out.line))).collect();
     let fields = [
         ("points", points),
         ("pieces", pieces(trace)),
@@ -61,6 +67,7 @@ pub(super) fn trace(trace: &Trace, notes: &Notes, source: &str, grid: &Grid) -> 
         ("source", quoted(source)),
         ("sourceName", json(&notes.source_name)),
         ("stacks", quoted(&format!("[{}]", stacks.join(",")))),
+        ("leftOut", format!("[{}]", left_out.join(","))),
     ];
     let fields = fields.map(|(name, value)| format!("\"{name}\":{value}"));
     format!("{{{}}}", fields.join(",\n"))

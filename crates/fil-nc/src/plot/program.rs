@@ -1,51 +1,122 @@
 //! Programs as traces.
 
-use fil_diag::Diag;
+use std::borrow::Cow;
+use std::collections::VecDeque;
+
+use fil_diag::{Code, Diag};
 
 use super::sample::{tip, tips};
 use super::trace::{Builder, is_place, tolerance};
-use super::{Extent, Stroke, Trace};
-use crate::dialect::{Dialect, Habit};
+use super::{Extent, LeftOut, Stroke, Trace, variables};
+use crate::dialect::{Dialect, Family, Habit};
+use crate::errors::NcCode;
+use crate::events::Events;
 use crate::forward::Forward;
-use crate::interpret::interpret;
+use crate::interpret::Running;
 use crate::motion::{Course, Event, Move, Position};
+use crate::source::Source;
+
+/// Most lines that are passed over; a program with more is drawn up to there.
+const MOST_LEFT_OUT: u32 = 10_000;
 
 /// The trace of a program; `name` is for messages.
 ///
 /// Motions from or to a place that is not known are left out, and so are those to
-/// points of the machine. The program is run twice, so that no more than its trace is kept.
+/// points of the machine. A line without a certain meaning is noted in
+/// [`Trace::left_out`], and the path goes on where the program has given all positions again.
+/// The program is run twice, so that no more than its trace is kept.
 ///
 /// # Errors
-/// What has no sure meaning on the machine.
+/// The first line without a certain meaning, where nothing can be drawn or the text is a
+/// program of another family of controls.
 pub fn nc_trace(
     text: &[u8],
     name: &str,
     dialect: &Dialect,
     forward: &Forward,
 ) -> Result<Trace, Box<Diag>> {
+    let text = match dialect.family {
+        Family::WordAddress => variables::resolved(text),
+        Family::Klartext | Family::Sinumerik => Cow::Borrowed(text),
+    };
+    let source = Source::memory(&text).into_page(dialect.text.page);
     let mut survey = Survey::default();
-    interpret(text, name, dialect, &mut |event| {
-        if let Event::Move(motion) = event {
+    let refused = run(&source, name, dialect, &mut |event| {
+        if let Some(Event::Move(motion)) = event {
             survey.take(&motion, forward);
         }
-    })?;
+    });
+    if let Some(foreign) = refused.iter().find(|refused| !refused.notes.is_empty()) {
+        return Err(Box::new(foreign.clone()));
+    }
     let tolerance = tolerance(survey.extent());
     let mut builder = Builder::default();
     builder.trace.inch = survey.inch.unwrap_or(!dialect.has(Habit::Metric));
     let mut at = Position::default();
-    interpret(text, name, dialect, &mut |event| match event {
-        Event::Move(motion) => {
+    run(&source, name, dialect, &mut |event| match event {
+        Some(Event::Move(motion)) => {
             add(&mut builder, &motion, &at, (forward, &survey, tolerance));
             at = motion.to;
         }
-        Event::ToolChange { line, tool, .. } => builder.change(line, tool),
-        Event::Dwell { .. }
-        | Event::Auxiliary { .. }
-        | Event::LeftToControl { .. }
-        | Event::ToolMeasured { .. }
-        | Event::End { .. } => {}
-    })?;
-    Ok(builder.trace)
+        Some(Event::ToolChange { line, tool, .. }) => builder.change(line, tool),
+        Some(_) => {}
+        None => builder.pen = None,
+    });
+    builder.trace.left_out = left_out(&refused);
+    match refused.into_iter().next() {
+        Some(first) if builder.trace.pieces.is_empty() => Err(Box::new(first)),
+        _ => Ok(builder.trace),
+    }
+}
+
+/// Runs a program and hands its events over, and `None` for each line that is refused and passed
+/// over.
+fn run(
+    source: &Source<'_>,
+    name: &str,
+    dialect: &Dialect,
+    take: &mut dyn FnMut(Option<Event>),
+) -> Vec<Diag> {
+    let mut running = Running::new(source, name, dialect);
+    let (mut events, mut refused) = (VecDeque::new(), Vec::<Diag>::new());
+    while refused.len() < MOST_LEFT_OUT as usize {
+        match running.more(&mut events) {
+            Ok(true) => events.drain(..).map(Some).for_each(&mut *take),
+            Ok(false) => break,
+            // The end of the text is refused again and again.
+            Err(same) if refused.last().is_some_and(|last| last.spans == same.spans) => break,
+            Err(fault) => {
+                events.clear();
+                running.go_on();
+                take(None);
+                refused.push(*fault);
+            }
+        }
+    }
+    refused
+}
+
+/// Lines that were refused, those with one reason together.
+fn left_out(refused: &[Diag]) -> Vec<LeftOut> {
+    let not_a_word: &Code = NcCode::NotAWord.into();
+    let mut left_out: Vec<LeftOut> = Vec::new();
+    for diag in refused {
+        let line = diag.spans.first().map_or(0, |span| span.line);
+        let why = if diag.code == not_a_word {
+            format!("{} is {}", diag.message, diag.code.title)
+        } else {
+            diag.message.clone()
+        };
+        match left_out.last_mut() {
+            Some(last) if last.why == why && last.line + last.count == line => last.count += 1,
+            _ => left_out.push(LeftOut { line, count: 1, why }),
+        }
+    }
+    if refused.len() == MOST_LEFT_OUT as usize {
+        let line = left_out.last().map_or(0, |last| last.line + last.count);
+        left_out.push(LeftOut { line, count: 1, why: "the rest of the program".to_string() });
+    }
+    left_out
 }
 
 /// Adds a motion from where the axes stand.
@@ -63,6 +134,9 @@ fn add(
         let points = tips(forward, (at, &motion.to), motion.arc.as_ref(), tolerance);
         if builder.draw(stroke(motion), motion.line, points) {
             builder.note(motion, forward.axis(motion.to.rotary).into());
+            if forward.has_rotary() {
+                builder.note_rotary(motion.to.rotary);
+            }
         }
     }
 }

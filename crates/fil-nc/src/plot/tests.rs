@@ -153,3 +153,45 @@ fn live_tools_of_a_lathe_lie_as_the_cl_file_says() {
     mill.take_tool_axes();
     assert!(mill.path.axes.is_empty());
 }
+
+#[test]
+fn tools_have_the_shape_that_cutter_gives_before_or_after_their_change() {
+    let cl = "UNITS / INCHES\nCUTTER / 2, 0, 1, 0.6, 31, 0, 5\nLOADTL / 3\nGOTO / 1, 2, 3\n\
+              LOADTL / 4\nCUTTER / 1, 0.9\nGOTO / 4, 2, 3\nLOADTL / 5\nGOTO / 1, 1, 1\nFINI\n";
+    let reader = fil_cl::Reader::new(cl.as_bytes(), "part.ncl", Default::default());
+    let tools = cl_tools(reader, None).expect("the file is right");
+    let drill =
+        ToolShape { number: 3, diameter: 50.8, corner: 0.0, bottom: 31.0, length: Some(127.0) };
+    // A corner is no larger than half the diameter.
+    let ball = ToolShape { number: 4, diameter: 25.4, corner: 12.7, bottom: 0.0, length: None };
+    assert_eq!(tools, [drill, ball]);
+}
+
+#[test]
+fn times_count_rapids_feeds_and_surface_speeds() {
+    let force = |from, feed, speed| InForce {
+        from,
+        tool: 1,
+        feed: Some(feed),
+        speed: Some(speed),
+        speed_limit: Some(1000.0),
+        spindle: crate::motion::Spindle::Clockwise,
+        fixture: None,
+    };
+    let mut trace = square(4);
+    trace.pieces[0].stroke = Stroke::Rapid;
+    trace.in_force = vec![
+        force(0, Rate::PerMinute(50.0), Speed::Turns(1.0)),
+        force(2, Rate::PerTurn(0.5), Speed::Surface(100.0)),
+    ];
+    let ends = time::ends(&trace);
+    // 25 mm each: at 10 m/min; at 50 mm/min; 0.5 mm a turn at 100 m/min on a radius of 62.5 mm, and
+    // on one of 87.5 mm.
+    let turns = |radius: f64| 100_000.0 / (2.0 * std::f64::consts::PI * radius);
+    let times = [0.15, 30.0, 1500.0 / (0.5 * turns(62.5)), 1500.0 / (0.5 * turns(87.5))];
+    let mut sum = 0.0;
+    for (end, time) in ends.iter().zip(times) {
+        sum += time;
+        assert!((end - sum).abs() < 1e-9, "{ends:?} {times:?}");
+    }
+}

@@ -75,7 +75,7 @@ impl Builder {
         let feed = match (motion.rate, last) {
             (None, last) => last.and_then(|last| last.feed),
             (Some(Rate::Inverse(inverse)), _) => {
-                Some(Rate::PerMinute(four_digits(inverse * self.length(from))))
+                Some(Rate::PerMinute(four_digits(inverse * self.trace.length(from))))
             }
             (rate, _) => rate,
         };
@@ -97,15 +97,12 @@ impl Builder {
         }
     }
 
-    /// Length of a piece, mm.
-    fn length(&self, piece: usize) -> f64 {
-        let piece = &self.trace.pieces[piece];
-        let points = &self.trace.points[piece.start..piece.end];
-        let step = |pair: &[Point]| {
-            let ways = [0, 1, 2].map(|n| pair[1][n] - pair[0][n]);
-            ways.map(|way| way * way).iter().sum::<f64>().sqrt()
-        };
-        points.windows(2).map(step).sum()
+    /// Notes the rotary axes at the piece that was drawn last, where they are elsewhere.
+    pub(super) fn note_rotary(&mut self, rotary: [f64; 2]) {
+        let from = self.trace.pieces.len() - 1;
+        if self.trace.rotary.last().is_none_or(|(_, last)| *last != rotary) {
+            self.trace.rotary.push((from, rotary));
+        }
     }
 
     pub(super) fn change(&mut self, line: u32, tool: u32) {

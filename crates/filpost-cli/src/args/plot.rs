@@ -19,10 +19,14 @@ pub struct PlotArgs {
     /// A CL file whose path is drawn under that of the program
     #[arg(long, value_name = "PART")]
     pub cl: Option<PathBuf>,
+    /// A second NC program for the same machine whose path is drawn under that of the program
+    #[arg(long, value_name = "NC", conflicts_with = "cl")]
+    pub second: Option<PathBuf>,
     /// The line map of the program; FILE.map when it is there
     #[arg(long, value_name = "FILE")]
     pub map: Option<PathBuf>,
-    /// The picture, .svg or .html; without it SVG goes to standard output if that is no terminal
+    /// The picture, .svg or .html; without it FILE.html if standard output is a terminal, or else
+    /// SVG to standard output
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// Views of an SVG; all of them when left out

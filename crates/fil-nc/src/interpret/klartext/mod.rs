@@ -83,6 +83,14 @@ impl<'a> Program<'a> {
         Program { control, lines: Lines::from(source, 0), number: 0, last: 1, leaves_out: false }
     }
 
+    /// Goes on after a refused line: pole and cycle are unknown too.
+    pub(super) fn forget(&mut self) {
+        self.control.state.forget();
+        self.control.pole = [None; 2];
+        self.control.defined = None;
+        self.control.old = None;
+    }
+
     /// Runs the next line; false behind the last.
     pub(super) fn run_line(
         &mut self,

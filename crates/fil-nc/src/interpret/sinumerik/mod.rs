@@ -114,6 +114,13 @@ impl<'a> Program<'a> {
         Program { control, lines: Lines::from(source, 0), number: 0, last: 1 }
     }
 
+    /// Goes on after a refused line: the cycle that MCALL calls is unknown too.
+    pub(super) fn forget(&mut self) {
+        self.control.state.forget();
+        self.control.called = None;
+        self.control.rigid_tap_lead = None;
+    }
+
     /// Runs the next line; false behind the last.
     pub(super) fn run_line(
         &mut self,

@@ -17,13 +17,19 @@ function legend(layer, style) {
   sample.style.borderTop = `${style} ${layer.colour}`;
   label.append(box, " ", sample, ` ${layer.name}`);
   element("layers").append(label);
+  return label;
 }
 const used = path.kinds.reduce((all, kinds) => all | kinds, 0);
 for (const layer of layers) {
   if (!(used >> layer.index & 1)) continue;
   legend(layer, layer.index === 0 ? `1px ${path.total < DASHES ? "dashed" : "solid"}` : "2px solid");
 }
-if (under) legend(underLayer, "5px solid");
+let underLabel = null;
+function showUnder() {
+  underLabel?.remove();
+  underLabel = legend(underLayer, "5px solid");
+}
+if (under) showUnder();
 if (path.axes.from.length) legend(axisLayer, "1px solid");
 
 /** Operations: from one tool to the next. */

@@ -89,6 +89,35 @@ document.addEventListener("keydown", (event) => {
   event.preventDefault();
 });
 
+/** Lays the path of a page that was dropped under this one. */
+async function takeDropped(file) {
+  try {
+    under = await readOther(await file.text());
+    data.underName = underLayer.name = file.name;
+    showUnder();
+    drawOthers();
+    tellMissing();
+    place.textContent = `${file.name}: ${under.total} motions under the path`;
+  } catch (error) {
+    place.textContent = `${file.name} can't be shown: ${error.message}`;
+  }
+}
+window.addEventListener("dragover", (event) => event.preventDefault());
+window.addEventListener("drop", (event) => {
+  event.preventDefault();
+  const [file] = event.dataTransfer.files;
+  if (file) takeDropped(file);
+});
+
+/** Lists the lines that are not drawn. */
+function tellMissing() {
+  const missing = element("missing"), all = [...path.leftOut, ...(under ? under.leftOut.map((one) => `${data.underName}, ${one}`) : [])];
+  missing.hidden = !all.length;
+  missing.querySelector("summary").textContent = all.length === 1 ? "1 gap in the path" : `${all.length} gaps in the path`;
+  missing.querySelector("p").textContent = all.join("\n");
+}
+
+tellMissing();
 writeRows();
 wait.hidden = true;
 const flat = data.max[2] - data.min[2] < 1e-9;

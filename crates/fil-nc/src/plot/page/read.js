@@ -91,7 +91,7 @@ async function readTrace(packed) {
     axes: named(["from", "x", "y", "z"], axes),
     changes: named(["from", "x", "y", "z", "tool", "line"], changes),
     text, source, sourceName: packed.sourceName, stacks,
-    causeLines: causes[0], causeStacks: causes[1],
+    causeLines: causes[0], causeStacks: causes[1], leftOut: packed.leftOut,
   };
   for (let piece = 0, end = 0; piece < total; piece++) {
     const head = heads[piece];
@@ -142,8 +142,19 @@ function rowAt({ from }, piece) {
 }
 
 const path = await readTrace(data.path);
-const under = data.under ? await readTrace(data.under) : null;
+let under = data.under ? await readTrace(data.under) : null;
 if (data.sourceIsUnder) path.source = under.text;
+
+/** The path of another page, on the grid of this one. */
+async function readOther(text) {
+  const page = new DOMParser().parseFromString(text, "text/html").getElementById("data");
+  if (!page) throw new Error("it is no page of filpost plot; make one with filpost plot FILE -o FILE.html");
+  const other = JSON.parse(page.textContent), trace = await readTrace(other.path);
+  const share = other.step / data.step, from = other.min.map((value, axis) => (value - data.min[axis]) / data.step);
+  for (let at = 0; at < trace.steps.length; at++) trace.steps[at] = Math.round(trace.steps[at] * share + from[at % 3]);
+  addBlocks(trace);
+  return trace;
+}
 
 // --- units --------------------------------------------------------------------
 
