@@ -40,6 +40,13 @@ await build({
   outfile: join(folder, "studio.js"),
   plugins: [workers],
 });
+// The 3D view is loaded when its tab is opened.
+await build({
+  ...common,
+  entryPoints: [join(here, "src/view/index.js")],
+  globalName: "filpostView",
+  outfile: join(folder, "view.js"),
+});
 await build({
   ...common,
   entryPoints: [join(here, "src/studio.css")],

@@ -7,6 +7,7 @@ import { Findings } from "./findings.js";
 import { showView, startLayout, startViews } from "./layout.js";
 import { Editing } from "./panes/editing.js";
 import { startJudging } from "./panes/judging.js";
+import { PathPane } from "./panes/path.js";
 import { Program } from "./panes/program.js";
 import { startTree } from "./panes/tree.js";
 import { MACHINE, Posting } from "./posting.js";
@@ -19,6 +20,8 @@ const posting = new Posting(files, ask);
 const findings = new Findings(files, posting, ask);
 const editing = new Editing(files, posting, ask);
 const program = new Program(files, posting, { open });
+const main = document.querySelector("main");
+const path = new PathPane(files, posting, ask);
 const tree = startTree(files, { open: (name) => open(name), remove });
 
 async function open(name, line = null, units = 0) {
@@ -104,7 +107,11 @@ editing.chosen.on((name) => {
   editing.showFindings(findings.all());
 });
 editing.pointed.on((name, line) => program.markMadeBy(name, line));
-program.pointed.on((line, places) => editing.mark(places));
+program.pointed.on((line, places) => {
+  editing.mark(places);
+  path.select(line);
+});
+path.picked.on((line) => program.goTo(line));
 
 by("part").addEventListener("change", (event) => choosePart(event.target.value));
 by("post-now").addEventListener("click", () => posting.run());
@@ -136,7 +143,10 @@ async function begin() {
 startLayout();
 startViews();
 tabs(by("program-tabs"));
-tabs(by("judge-tabs"));
+tabs(by("judge-tabs"), (id) => {
+  main.classList.toggle("path", id === "tab-path");
+  if (id === "tab-path") path.open();
+});
 startJudging(findings, {
   open,
   openNc: (line) => {

@@ -9,7 +9,7 @@ import { tests } from "./studio.mjs";
 
 const [program, executablePath, pictures] = process.argv.slice(2);
 const args = [
-  "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+  "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
   "--disable-background-networking", "--disable-component-update", "--disable-sync",
 ];
 const browser = await chromium.launch({ executablePath, args });

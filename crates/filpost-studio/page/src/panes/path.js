@@ -1,0 +1,107 @@
+// The path of the program in three dimensions, over that of a second one. The view is loaded when its
+// tab is opened for the first time.
+import { tell } from "../dialogs.js";
+import { by, el, signal } from "../dom.js";
+import { isCl } from "../files.js";
+
+/** Files that may be NC programs. */
+const isProgram = (name) => /\.(nc|tap|cnc|mpf|spf|h|ngc|eia|min|iso|din|prg)$/i.test(name);
+
+function load() {
+  return new Promise((resolve, reject) => {
+    const script = el("script", { src: "view.js" });
+    script.addEventListener("load", () => resolve(globalThis.filpostView));
+    script.addEventListener("error", () => reject(new Error("view.js can't be loaded")));
+    document.head.append(script);
+  });
+}
+
+export class PathPane {
+  constructor(files, posting, ask) {
+    Object.assign(this, { files, posting, ask });
+    this.view = null;
+    this.asked = 0;
+    this.isStale = true;
+    /** A motion was clicked: its line. */
+    this.picked = signal();
+    this.second = el("select", { id: "second", "aria-label": "Second program" });
+    this.second.addEventListener("change", () => this.showSecond());
+    posting.done.on(() => {
+      this.isStale = true;
+      if (this.isOpen) this.show();
+    });
+    files.listed.on(() => this.listSecond());
+    this.listSecond();
+  }
+
+  get isOpen() {
+    return !by("panel-path").hidden;
+  }
+
+  async open() {
+    try {
+      if (!this.view) await this.start();
+      if (this.isStale) await this.show();
+    } catch (error) {
+      tell("The path can't be shown", error.message);
+    }
+  }
+
+  async start() {
+    this.started ??= load();
+    const { createView, readProgram, bytesOf } = await this.started;
+    this.read = (answer) => readProgram(bytesOf(answer.columns));
+    this.view ??= createView(by("view"), {
+      onPick: (line, of) => of === "program" && this.picked.tell(line),
+      textOf: (line) => this.posting.lines[line - 1] ?? "",
+      tools: [el("label", {}, "over ", this.second)],
+    });
+    await this.showSecond();
+  }
+
+  /** The path of a text as the answer to a request for it; null where there is none. */
+  async columns(texts) {
+    const machine = this.posting.machine();
+    if (!machine) return null;
+    const answer = await this.ask({ do: "columns", machine, ...texts });
+    return answer.columns ? this.read(answer) : null;
+  }
+
+  async show() {
+    this.isStale = false;
+    const { answer, part } = this.posting, number = ++this.asked;
+    const cl = (part && this.files.text(part)) ?? "";
+    const program = answer?.nc === undefined ? null : await this.columns({ nc: answer.nc, cl, cl_name: part });
+    if (number === this.asked) this.view.setProgram(program);
+  }
+
+  listSecond() {
+    const chosen = this.second.value, names = this.files.names().filter((name) => isProgram(name) || isCl(name));
+    this.second.replaceChildren(el("option", { value: "" }, "no second program"), ...names.map((name) => el("option", { value: name }, name)));
+    if (names.includes(chosen)) this.second.value = chosen;
+  }
+
+  /** Lays the chosen program, or the path of a CL file, under the program. */
+  async showSecond() {
+    const name = this.second.value;
+    let second = null;
+    try {
+      if (name) {
+        await this.files.read(name);
+        const text = this.files.text(name);
+        second = await this.columns(isCl(name) ? { cl: text, cl_name: name } : { nc: text });
+        if (!second) throw new Error(`${name} has no path on this machine`);
+        second.title = name;
+      }
+    } catch (error) {
+      this.second.value = "";
+      tell("The second program can't be shown", error.message);
+    }
+    this.view?.setSecond(second);
+  }
+
+  /** Marks the motions of a line. */
+  select(line) {
+    if (this.isOpen && this.view) this.view.select(line);
+  }
+}
