@@ -29,6 +29,7 @@ pub mod rs274;
 pub mod same_events;
 pub mod sample;
 pub mod sinumerik;
+pub mod stock;
 pub mod tip_program;
 pub mod turning;
 pub mod word_pages;

@@ -346,16 +346,21 @@ impl Record {
         }
     }
 
-    fn tool_measure(&self, at: usize) -> Option<f64> {
-        let values = match (self.major, self.data.first()) {
+    /// The values that the record gives a tool, in the unit of the file and degrees: those of
+    /// CUTTER, or of TLDATA of a mill or drill; none of another record.
+    pub fn tool_values(&self) -> &[Word] {
+        match (self.major, self.data.first()) {
             (words::CUTTER, _) => &self.data[..],
             (words::TLDATA, Some(Word::Minor(words::MILL | words::DRILL))) => {
                 let kind = self.data.iter().take_while(|word| matches!(word, Word::Minor(_)));
                 &self.data[kind.count()..]
             }
-            _ => return None,
-        };
-        match values.get(at) {
+            _ => &[],
+        }
+    }
+
+    fn tool_measure(&self, at: usize) -> Option<f64> {
+        match self.tool_values().get(at) {
             Some(Word::Number(measure)) => Some(*measure),
             _ => None,
         }

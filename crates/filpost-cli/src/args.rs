@@ -5,6 +5,7 @@ mod levels;
 mod machine;
 mod names;
 mod plot;
+mod simulate;
 mod studio;
 mod test;
 mod trace;
@@ -22,6 +23,7 @@ pub use learn::LearnArgs;
 pub use levels::LevelArgs;
 pub use machine::{MachineArgs, MachineCommand};
 pub use plot::{PlotArgs, Seen};
+pub use simulate::{MaterialArgs, SimulateArgs};
 pub use studio::StudioArgs;
 pub use test::{Shard, TestArgs};
 pub use trace::{AnswerFormat, TraceArgs};
@@ -52,6 +54,8 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Draw the path of a CL file or of an NC program, as SVG or as a page
     Plot(PlotArgs),
+    /// Cut stock with an NC program: rapid through stock, holder in stock, cuts below the part
+    Simulate(SimulateArgs),
     /// Run regression cases (folders with a case.toml)
     Test(TestArgs),
     /// Show which CL record and FIL line produced a block, or what a record or FIL line produced
@@ -414,11 +418,14 @@ pub struct VerifyArgs {
     #[arg(long, value_name = "MM", value_parser = tolerance)]
     pub between: Option<f64>,
     /// The line map of the run (`filpost post --map`): audit the program, scripts apart from the post
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["fil", "tol", "between", "allow_offset"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["fil", "tol", "between", "allow_offset", "stock", "setup"])]
     pub map: Option<PathBuf>,
     /// Work offsets that the program may use if the CL file names none: G54,G54.1P3
     #[arg(long, value_name = "OFFSETS", value_delimiter = ',', value_parser = work_offset)]
     pub allow_offset: Vec<u32>,
+    /// Stock to cut with the program, as `filpost simulate` does
+    #[command(flatten)]
+    pub material: MaterialArgs,
     /// Format of the findings
     #[arg(long, value_enum, default_value_t = Report::Text)]
     pub format: Report,

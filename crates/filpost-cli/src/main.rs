@@ -29,6 +29,7 @@ mod refused;
 mod render;
 mod sarif;
 mod setup;
+mod simulate;
 mod studio;
 mod summary;
 mod test;
@@ -106,6 +107,7 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Diff(args) => diff::run(args),
         Command::Verify(args) => verify::run(args),
         Command::Plot(args) => plot::run(args),
+        Command::Simulate(args) => simulate::run(args),
         Command::Test(args) => test::run(args),
         Command::Trace(args) => trace::run(args),
         Command::Explain(args) => explain::run(&args.subject),

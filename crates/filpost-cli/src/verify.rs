@@ -7,10 +7,12 @@ use filpost::map::{Digest, MapReader};
 use filpost::nc::decimals;
 use filpost::nc::source::Source;
 use filpost::nc::verify::{Allowed, Between, Finding, Report, Verdict};
+use filpost::plot::{ClText, Text};
 use filpost::verify::{Reference, as_json};
-use filpost::{Error, Program, files, select};
+use filpost::{Error, Program, files, select, stock};
 
 use crate::args::{self, VerifyArgs};
+use crate::simulate::{self, Material};
 use crate::summary::counted;
 use crate::{Status, audit, output, setup};
 
@@ -19,6 +21,11 @@ use crate::{Status, audit, output, setup};
 /// # Errors
 /// Files that can't be read, a program or a CL file that makes no sense.
 pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
+    let material = Material::read(&args.material)?;
+    if material.is_some() && [&args.cl, &args.nc].iter().any(|path| path.as_os_str() == "-") {
+        output::say("error: with --stock the CL file and the program are files");
+        return Ok(Status::Usage);
+    }
     let mut cl = output::open(&args.cl)?;
     let nc = Source::file(output::open(&args.nc)?);
     let name = output::input_name(&args.nc);
@@ -35,10 +42,15 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     }
     let page = program.nc_page();
     let (report, reference) = run.verify_source(cl, (&nc, &name), allowed)?;
+    let cut = material.map(|material| stock(args, &program, &material)).transpose()?;
     output::say(&format!("machine: {title}"));
     match args.format {
         args::Report::Json => {
-            output::print(format!("{:#}\n", as_json(&report, reference)).as_bytes())?;
+            let mut found = as_json(&report, reference);
+            if let Some((_, cut)) = &cut {
+                found["stock"] = filpost::simulate::as_json(cut);
+            }
+            output::print(format!("{found:#}\n").as_bytes())?;
         }
         args::Report::Text => {
             let mut wanted: Vec<u32> =
@@ -63,9 +75,32 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
                 }
                 writeln!(out, "{}", conclusion(args, &report, reference))
             })?;
+            if let Some((bytes, cut)) = &cut {
+                simulate::write_report(Text { name: &name, bytes }, page, cut)?;
+            }
         }
     }
-    Ok(if report.verdict() == Verdict::Agrees { Status::Done } else { Status::Failed })
+    let is_right = report.verdict() == Verdict::Agrees;
+    let cuts_right = cut.is_none_or(|(_, cut)| !cut.fails);
+    Ok(if is_right && cuts_right { Status::Done } else { Status::Failed })
+}
+
+/// The program cut into stock: its text, and what was found.
+fn stock(
+    args: &VerifyArgs,
+    program: &Program,
+    material: &Material,
+) -> Result<(Vec<u8>, stock::Report), Error> {
+    let (cl, bytes) = (simulate::read(&args.cl)?, simulate::read(&args.nc)?);
+    let (cl_name, name) = (output::input_name(&args.cl), output::input_name(&args.nc));
+    let text = Text { name: &cl_name, bytes: &cl };
+    let cl = ClText { text, options: options(args)?, unit: args.units.units };
+    let tools = filpost::simulate::cl_tools(&cl, program.commons())?;
+    let nc = Text { name: &name, bytes: &bytes };
+    let levels = &args.reading.levels.levels;
+    let mut report = simulate::cut(material, &tools, nc, program.commons(), levels)?.report;
+    simulate::name_sources(&mut report, nc, &args.nc, None)?;
+    Ok((bytes, report))
 }
 
 /// Audits the program with the line map of its run.

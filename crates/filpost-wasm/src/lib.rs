@@ -28,6 +28,8 @@ mod plot;
 mod post;
 #[cfg(feature = "post")]
 mod setup;
+#[cfg(feature = "simulate")]
+mod simulate;
 
 use filpost::{Diag, Error};
 use serde_json::{Value, json};
@@ -85,6 +87,8 @@ fn read(request: Value) -> Result<Value, Misuse> {
         "plot" => plot::Plot::read(fields)?.draw(),
         #[cfg(feature = "plot")]
         "columns" => plot::Plot::read(fields)?.columns(),
+        #[cfg(feature = "simulate")]
+        "simulate" => simulate::Simulate::read(fields)?.run(),
         #[cfg(feature = "post")]
         "findings" => Edited::read(fields)?.findings(),
         #[cfg(feature = "post")]

@@ -164,3 +164,26 @@ fn every_ready_post_is_there() {
     let posts = ask(&json!({ "do": "ready" }));
     assert_eq!(posts.as_array().unwrap().len(), filpost::ready::READY.len());
 }
+
+#[test]
+fn a_program_cuts_stock() {
+    let nc = "G21 G90 G94 G17\nT1 M6\nS900 M3\nG0 X-10. Y10.\nG43 Z20. H1\nZ-2.\nG1 X60. F200.\n\
+              G0 X-10. Y15.\nM30\n";
+    let answer = ask(&json!({
+        "do": "simulate", "ready": "fanuc-mill", "nc": nc, "stock": "box 50x20x10",
+        "tools": ["1=D10"], "grid": "0.5mm", "heights": true,
+    }));
+    assert_eq!(answer["findings"][0]["code"], "E0971", "{answer}");
+    assert_eq!(answer["findings"][0]["nc_line"], 8);
+    let (columns, rows) = (&answer["grid"]["columns"], &answer["grid"]["rows"]);
+    assert_eq!((columns, rows), (&json!(100), &json!(40)));
+    let heights = answer["heights"].as_array().unwrap();
+    assert_eq!(
+        (heights.len(), &heights[0], &heights[20 * 100 + 7]),
+        (4000, &json!(0.0), &json!(-2.0))
+    );
+    let refused = ask(&json!({
+        "do": "simulate", "ready": "fanuc-mill", "nc": nc, "stock": "box 50x20x10", "tools": [],
+    }));
+    assert_eq!(refused["errors"][0]["code"], "E0961", "{refused}");
+}

@@ -165,7 +165,7 @@ impl std::error::Error for Error {}
 
 /// The tables of all codes, by number.
 pub fn all_codes() -> Vec<&'static Code> {
-    let tables: [&'static [Code]; 9] = [
+    let tables: [&'static [Code]; 10] = [
         fil_machine::errors::MachineCode::ALL,
         fil_syntax::SyntaxCode::ALL,
         fil_vm::errors::CompileCode::ALL,
@@ -175,6 +175,7 @@ pub fn all_codes() -> Vec<&'static Code> {
         fil_post::errors::PostCode::ALL,
         RunCode::ALL,
         fil_nc::errors::NcCode::ALL,
+        fil_stock::errors::StockCode::ALL,
     ];
     let mut codes: Vec<_> = tables.into_iter().flatten().collect();
     codes.sort_by_key(|code| code.number);

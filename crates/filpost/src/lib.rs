@@ -70,6 +70,7 @@ mod script_files;
 #[path = "no_script_files.rs"]
 mod script_files;
 pub mod select;
+pub mod simulate;
 mod source;
 mod spilled;
 mod spool;
@@ -112,6 +113,7 @@ pub use fil_machine::{
 };
 pub use fil_nc as nc;
 pub use fil_post::{Cause, FilLine, Origin, Stack, dispatch, no_effect};
+pub use fil_stock as stock;
 pub use fil_syntax as syntax;
 pub use fil_text::{CodePage, shown};
 pub use fil_vm::{

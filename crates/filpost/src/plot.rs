@@ -163,6 +163,19 @@ pub fn take_tools(drawing: &mut Drawing, cl: ClText<'_>, commons: &Commons) -> R
 pub fn add_origins<R: Read + Seek>(
     drawing: &mut Drawing,
     nc: Text<'_>,
+    map: MapReader<R>,
+    read: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
+) -> Result<(), Error> {
+    note_origins(&mut drawing.notes, nc, map, read)
+}
+
+/// The same for notes by themselves.
+///
+/// # Errors
+/// As [`add_origins`].
+pub fn note_origins<R: Read + Seek>(
+    notes: &mut Notes,
+    nc: Text<'_>,
     mut map: MapReader<R>,
     read: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
 ) -> Result<(), Error> {
@@ -171,7 +184,6 @@ pub fn add_origins<R: Read + Seek>(
         let bytes = read(&file.name).filter(|bytes| Digest::of(bytes) == file.digest);
         bytes.filter(|bytes| bytes.len() <= LONGEST_SOURCE).map(|bytes| text(&bytes))
     };
-    let notes = &mut drawing.notes;
     notes.source_name = map.cl().name.clone();
     notes.source = text_of(map.cl());
     let fil: Vec<(String, Option<String>)> =

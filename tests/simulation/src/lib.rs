@@ -5,6 +5,7 @@
 pub mod embos;
 pub mod runout;
 pub mod screw;
+pub mod stock;
 pub mod thread;
 
 /// How many random jobs are run: what an environment variable asks for, or as many as always.

@@ -29,6 +29,7 @@ mod random_turn_mixed;
 mod real_cl;
 mod reference;
 mod robust;
+mod stock;
 mod threads;
 mod threads_osp;
 mod threads_settings;

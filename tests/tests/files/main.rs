@@ -7,6 +7,7 @@ mod diff;
 mod howto;
 mod lints;
 mod motions;
+mod stock;
 mod words;
 
 use libtest_mimic::Arguments;
@@ -19,6 +20,7 @@ fn main() {
         howto::trials,
         lints::trials,
         motions::trials,
+        stock::trials,
         words::trials,
     ];
     let trials = suites.iter().flat_map(|suite| suite()).collect();

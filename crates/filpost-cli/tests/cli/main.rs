@@ -27,6 +27,7 @@ mod new;
 mod output;
 mod post;
 mod shards;
+mod simulate;
 mod studio;
 mod support;
 mod test;

@@ -1,5 +1,5 @@
 //! The error catalogue: every code has its page in `docs/errors/`, and a case
-//! in `corpus/errors/`, a file of the lint suite or of `tests/motions/`, or a test
+//! in `corpus/errors/`, a file of the lint suite, of `tests/motions/` or of `tests/stock/`, or a test
 //! here. The examples of the pages are run: what stands under "Wrong"
 //! raises the code with the words printed there, what stands under "Right" does
 //! not. `FILPOST_UPDATE=1` writes the words anew.
@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use filpost::case::Case;
 use filpost::{Code, Diag, Error, Program, Severity, all_codes};
 use filpost_tests::examples;
-use filpost_tests::{lints, motions, root};
+use filpost_tests::{lints, motions, root, stock};
 
 /// Codes that no small case folder can raise, with the test that does.
 const TESTED_HERE: &[(&str, &str)] = &[
@@ -133,6 +133,7 @@ fn every_code_has_a_case_or_a_test() {
     let lints: Vec<String> = bad.iter().flat_map(|path| lints::listed(&read(path))).collect();
     let programs: Vec<String> =
         motions::files().iter().filter_map(|path| motions::listed(path)).collect();
+    let simulated = simulated();
     let source = concat!(
         include_str!("language.rs"),
         include_str!("reading.rs"),
@@ -144,12 +145,18 @@ fn every_code_has_a_case_or_a_test() {
         let here = TESTED_HERE.iter().find(|(code, _)| *code == name);
         let in_lints = lints.iter().any(|listed| listed.starts_with(&name));
         let in_nc = programs.iter().any(|listed| listed.starts_with(&name));
-        let once = in_corpus != here.is_some() || ((in_lints || in_nc) && here.is_none());
+        let in_file = in_lints || in_nc || simulated.contains(&name);
+        let once = in_corpus != here.is_some() || (in_file && here.is_none());
         assert!(once, "{name}: a case or a test, and not both");
         if let Some((_, test)) = here {
             assert!(source.contains(&format!("fn {test}()")), "there is no test {test}");
         }
     }
+}
+
+/// The codes that programs of `tests/stock/` expect.
+fn simulated() -> Vec<String> {
+    stock::files().iter().flat_map(|path| stock::listed(path)).collect()
 }
 
 /// Codes that name no line of a file.
@@ -208,6 +215,8 @@ fn most_pages_have_examples_that_run() {
         .filter(|(name, (_, page))| !name[1..].starts_with("08") && !runs(page))
         .map(|(name, _)| name)
         .filter(|name| !TESTED_HERE.iter().any(|(code, _)| code == name))
+        // Their pages tell of programs of `tests/stock/`, which run as tests.
+        .filter(|name| !simulated().contains(name))
         .collect();
     assert!(without.is_empty(), "{without:?}");
 }

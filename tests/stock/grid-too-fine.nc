@@ -1,0 +1,11 @@
+; stock: box 1000x1000x20
+; grid: 0.05
+; tool: 1=D10
+; error: E0963
+G21 G90 G94 G17
+T1 M6
+S3000 M3
+G0 X30. Y20.
+G43 Z20. H1
+G1 Z-2. F100.
+M30

@@ -1,0 +1,14 @@
+; stock: box 60x40x20
+; tool: 1=D10
+; error: E0962 at 13
+G21 G90 G94 G17
+T1 M6
+S3000 M3
+G54 G0 X-10. Y10.
+G43 Z20. H1
+Z-2.
+G1 X20. F300.
+G0 Z20.
+G55 X-10. Y10. Z20.
+G1 X20. F300.
+M30

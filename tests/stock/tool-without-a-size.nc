@@ -1,0 +1,10 @@
+; stock: box 60x40x20
+; tool: 1=D10
+; error: E0961
+G21 G90 G94 G17
+T2 M6
+S3000 M3
+G0 X30. Y20.
+G43 Z20. H2
+G1 Z-2. F100.
+M30
