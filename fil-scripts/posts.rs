@@ -1,6 +1,18 @@
 //! The posts that come with filpost: each folder of `posts/`, as texts.
 //!
-//! They are data: [`filpost`](https://crates.io/crates/filpost) reads and runs them.
+//! **Goal.** A first program for the control at hand, and a base for a machine of your own.
+//!
+//! **Model.** They are data: [`filpost`](https://crates.io/crates/filpost) reads and runs them. A
+//! [`ReadyPost`] is a name, a `machine.toml` and a README that says what is assumed of the control.
+//!
+//! ```
+//! let post = filpost_posts::find("Haas-Mill").expect("a ready post");
+//! assert!(post.machine.contains("[address]"));
+//! assert!(post.readme().starts_with("# haas-mill"));
+//! ```
+//!
+//! **Limits.** A ready post is made from manuals and judged by a checker, not by your machine: read
+//! its README and dry-run the first program.
 
 /// A ready post: the files of its folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

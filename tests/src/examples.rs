@@ -120,7 +120,7 @@ fn post(builder: filpost::Builder, cl: &str) -> Vec<Diag> {
     };
     let mut diags = post.warnings().to_vec();
     let run = post.start().cl_name("part.ncl");
-    match run.run_seekable(Cursor::new(cl.as_bytes()), &mut Vec::new()) {
+    match run.stream_seekable(Cursor::new(cl.as_bytes()), &mut Vec::new()) {
         Ok(report) => diags.extend(report.warnings),
         Err(error) => diags.extend(error.diags().iter().cloned()),
     }

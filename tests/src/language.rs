@@ -177,7 +177,7 @@ fn post(builder: filpost::Builder, cl: &str) -> Posted {
     let report = post
         .start()
         .cl_name(CL_NAME)
-        .run_seekable(Cursor::new(cl.as_bytes()), &mut nc)
+        .stream_seekable(Cursor::new(cl.as_bytes()), &mut nc)
         .map_err(refused)?;
     let warnings = post.warnings().iter().cloned().chain(report.warnings).collect();
     Ok((String::from_utf8_lossy(&nc).into_owned(), warnings))

@@ -151,7 +151,7 @@ pub fn posted_by(ready: &str, path: &Path) -> Option<NcCase> {
 /// The program; `None` for an input that is to be refused.
 fn run(post: &Program, cl: &[u8]) -> Option<String> {
     let mut nc = Vec::new();
-    post.run_seekable(Cursor::new(cl), &mut nc).ok()?;
+    post.stream_seekable(Cursor::new(cl), &mut nc).ok()?;
     String::from_utf8(nc).ok()
 }
 

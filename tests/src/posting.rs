@@ -153,8 +153,8 @@ impl Prepared {
     /// What the post refuses.
     pub fn listing(&self, cl: &str) -> Result<String, Refused> {
         let mut listing = Listing::new(Vec::new());
-        let run = self.program.start().reading(self.reading).observe(listing.observer());
-        run.run_seekable(Cursor::new(cl), &mut Vec::new()).map_err(refused)?;
+        let run = self.program.start().cl_options(self.reading).observe(listing.observer());
+        run.stream_seekable(Cursor::new(cl), &mut Vec::new()).map_err(refused)?;
         let text = listing.finish().expect("a listing in memory");
         Ok(String::from_utf8_lossy(&text).into_owned())
     }
@@ -167,7 +167,7 @@ impl Prepared {
         let mut posted = Posted::default();
         let mut nc = Vec::new();
         let mut lines = BTreeMap::new();
-        let run = self.program.start().reading(self.reading).observe(|event| match event {
+        let run = self.program.start().cl_options(self.reading).observe(|event| match event {
             Event::Record { record, .. } => {
                 lines.insert(record.number, record.line as usize);
             }
@@ -177,7 +177,7 @@ impl Prepared {
             Event::Message(text) => posted.messages.push(text.to_string()),
             _ => {}
         });
-        let report = run.run_seekable(Cursor::new(cl), &mut nc).map_err(refused)?;
+        let report = run.stream_seekable(Cursor::new(cl), &mut nc).map_err(refused)?;
         posted.warnings =
             self.program.warnings().iter().chain(&report.warnings).map(said).collect();
         posted.nc = String::from_utf8_lossy(&nc).into_owned();

@@ -312,7 +312,7 @@ fn both(machine: &Machine, name: &str) -> [NcCase; 3] {
     let cl = file(&format!("{name}.ncl"));
     let run = |post: Program| {
         let mut nc = Vec::new();
-        post.run(cl.as_bytes(), &mut nc).expect("a program");
+        post.stream(cl.as_bytes(), &mut nc).expect("a program");
         String::from_utf8(nc).expect("text")
     };
     let posted = machine

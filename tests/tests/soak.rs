@@ -55,14 +55,14 @@ fn memory_stays_flat() {
         let done = match number % 4 {
             // One in four is refused in its middle.
             3 => plain
-                .run(&[&cl[..cl.len() / 2], b"\nGOTO / 1, 2, nonsense\n"].concat()[..], &mut nc),
-            2 => scripted.run(&cl[..], &mut nc),
+                .stream(&[&cl[..cl.len() / 2], b"\nGOTO / 1, 2, nonsense\n"].concat()[..], &mut nc),
+            2 => scripted.stream(&cl[..], &mut nc),
             1 => {
                 // The machine and the script are built anew.
                 let post = Program::builder().generic("fanuc-mill").fil("soak.fil", SCRIPT);
-                post.build().expect("a post").run(&cl[..], &mut nc)
+                post.build().expect("a post").stream(&cl[..], &mut nc)
             }
-            _ => plain.run(&cl[..], &mut nc),
+            _ => plain.stream(&cl[..], &mut nc),
         };
         assert_eq!(done.is_err(), number % 4 == 3, "post {number}");
         if number % 4 == 0 {
@@ -105,9 +105,9 @@ fn a_circle_of_many_turns_does_not_stay_in_memory() {
     let post = || Program::builder().generic("fanuc-mill").set("circle.max_degrees=90");
     let plain = post().build().expect("a post");
     let (mut few, mut many) = (Count(0), Count(0));
-    plain.run(&turns(2)[..], &mut few).expect("a program of two turns");
+    plain.stream(&turns(2)[..], &mut few).expect("a program of two turns");
     let early = resident();
-    plain.run(&turns(10_000)[..], &mut many).expect("a program of many turns");
+    plain.stream(&turns(10_000)[..], &mut many).expect("a program of many turns");
     assert!(many.0 > 1_000 * few.0, "{} and {} bytes", few.0, many.0);
     match (early, peak()) {
         (Some(early), Some(late)) => {
@@ -118,7 +118,7 @@ fn a_circle_of_many_turns_does_not_stay_in_memory() {
     }
     let limits = Limits { output_bytes: 1 << 20, ..Limits::default() };
     let short = post().limits(limits).build().expect("a post");
-    let refused = short.run(&turns(10_000)[..], &mut Count(0)).expect_err("too long");
+    let refused = short.stream(&turns(10_000)[..], &mut Count(0)).expect_err("too long");
     assert!(refused.to_string().contains("E0717"), "{refused}");
 }
 

@@ -27,6 +27,7 @@ const CIRCLE_HEAD: [Word; 5] = [
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShapeError {
     /// The code to report.
+    #[doc(hidden)]
     pub code: ClCode,
     /// What is wrong, in a sentence.
     pub message: String,

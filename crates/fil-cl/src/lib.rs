@@ -1,4 +1,7 @@
 //! CL records: vocabulary, streaming reader, writer.
+//!
+//! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
+//! change in any version, and all versions change together.
 
 mod build;
 mod convert;

@@ -94,6 +94,7 @@ pub struct Record {
     pub line: u32,
     /// The dialect it comes from gives it no effect on the machine: sections see it, the post
     /// passes over it.
+    #[doc(hidden)]
     pub inert: bool,
 }
 
@@ -198,6 +199,7 @@ impl Record {
     }
 
     /// Class of word `n`: 0 nothing there, 1 number, 2 minor word, 3 text.
+    #[doc(hidden)]
     pub fn class(&self, n: usize) -> u8 {
         match n {
             1..FIRST_DATA => 1,

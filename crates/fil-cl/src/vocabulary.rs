@@ -21,6 +21,7 @@ impl WordId {
     }
 
     /// The id of an index that [`WordId::index`] gave.
+    #[doc(hidden)]
     pub fn from_index(index: u32) -> Self {
         WordId(index)
     }
@@ -124,6 +125,7 @@ impl Vocabulary {
 
     /// The same for the bytes of a name; those of a name that is not ASCII are
     /// read as UTF-8, with U+FFFD for what is none.
+    #[doc(hidden)]
     pub fn intern_bytes(&mut self, name: &[u8]) -> WordId {
         if name.is_ascii() {
             return self.intern_upper(name);
@@ -190,6 +192,7 @@ impl Vocabulary {
 
     /// True for a word that statements for posts use. The tables also have words of the
     /// language of APT processors, which mean nothing in a CL file.
+    #[doc(hidden)]
     pub fn is_of_posts(&self, id: WordId) -> bool {
         self.entries[id.index()].of_posts
     }
@@ -197,6 +200,7 @@ impl Vocabulary {
     /// The word a code stands for where a minor word is due. Of several words
     /// with the code a minor word is taken before a major one, and a word of
     /// [`words`] before another.
+    #[doc(hidden)]
     pub fn minor_with_code(&self, code: f64) -> Option<WordId> {
         if code < 0.0 || code.fract() != 0.0 {
             return None;

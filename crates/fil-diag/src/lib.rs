@@ -3,6 +3,9 @@
 //! A crate declares its codes once with [`codes!`]; the table made there is
 //! what `filpost explain` prints, what `docs/errors/` is checked against and
 //! what a [`Diag`] points to. Rendering is the command's business alone.
+//!
+//! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
+//! change in any version, and all versions change together.
 
 pub mod letter_case;
 mod level;
@@ -64,6 +67,13 @@ impl Code {
     /// Error or warning, where no level says otherwise.
     pub const fn severity(&self) -> Severity {
         self.kind.severity()
+    }
+}
+
+impl std::fmt::Display for Code {
+    /// Its [name](Code::name).
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(&self.name())
     }
 }
 
@@ -131,6 +141,11 @@ impl Diag {
         self.severity
     }
 
+    /// What can be done: the hint made for this case, or that of the code.
+    pub fn advice(&self) -> &str {
+        self.hint.as_deref().unwrap_or(self.code.hint)
+    }
+
     /// True when the run must not write its output.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
@@ -182,7 +197,7 @@ pub const fn reason(text: &'static str) -> &'static str {
 ///     }
 /// }
 /// let code: &fil_diag::Code = ExampleCode::UnknownWord.into();
-/// assert_eq!(code.name(), "W9901");
+/// assert_eq!(code.to_string(), "W9901");
 /// assert_eq!(ExampleCode::ALL.len(), 1);
 ///
 /// let refused: fil_diag::Result<()> = ExampleCode::UnknownWord.err("BANANA");

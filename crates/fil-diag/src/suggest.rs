@@ -28,26 +28,10 @@ pub fn did_you_mean<'k>(name: &str, known: impl IntoIterator<Item = &'k str>) ->
     nearest(name, known).map(|near| format!("did you mean {near}?"))
 }
 
-/// Number of single-character edits between two texts: a character put in,
+/// Number of single-character edits between two texts, letters in any case: a character put in,
 /// left out or replaced, or two neighbours swapped.
 fn edits(a: &str, b: &str) -> usize {
-    let upper = |text: &str| text.bytes().map(|byte| byte.to_ascii_uppercase()).collect::<Vec<_>>();
-    let (a, b) = (upper(a), upper(b));
-    let mut before: Vec<usize> = Vec::new();
-    let mut last: Vec<usize> = (0..=b.len()).collect();
-    for i in 0..a.len() {
-        let mut row = vec![i + 1];
-        for j in 0..b.len() {
-            let replaced = last[j] + usize::from(a[i] != b[j]);
-            let mut least = replaced.min(last[j + 1] + 1).min(row[j] + 1);
-            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
-                least = least.min(before[j - 1] + 1);
-            }
-            row.push(least);
-        }
-        before = std::mem::replace(&mut last, row);
-    }
-    last[b.len()]
+    strsim::osa_distance(&a.to_ascii_uppercase(), &b.to_ascii_uppercase())
 }
 
 #[cfg(test)]

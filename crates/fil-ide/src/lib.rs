@@ -3,6 +3,9 @@
 //!
 //! [`Script`] is the analysis of a FIL file with the files it includes. Places of an
 //! editor are lines and UTF-16 units ([`Position`]); everything inside counts bytes.
+//!
+//! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
+//! change in any version, and all versions change together.
 
 mod actions;
 pub mod cl_file;

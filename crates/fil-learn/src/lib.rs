@@ -5,6 +5,9 @@
 //! The result is a [`Learned`]: a machine, the lines that prove each of its settings, what no
 //! pair decides, and the lines that still differ. It is the same for the same input, whatever
 //! the number of threads.
+//!
+//! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
+//! change in any version, and all versions change together.
 #![deny(missing_docs)]
 
 mod align;

@@ -386,7 +386,7 @@ mod tests {
     /// What is learned from the program of a post that begins from a ready post.
     fn learned_of(builder: filpost::Builder, base: &str) -> Learned {
         let mut nc = Vec::new();
-        builder.build().unwrap().run_seekable(std::io::Cursor::new(CL), &mut nc).unwrap();
+        builder.build().unwrap().stream_seekable(std::io::Cursor::new(CL), &mut nc).unwrap();
         let pair = Pair::new("part.ncl", CL.as_bytes(), "part.nc", &nc);
         let task = Task::new(vec![pair], Bases::Ready(vec![base.into()]));
         let learned = learn(&task).unwrap();

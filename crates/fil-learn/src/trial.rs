@@ -117,7 +117,7 @@ impl<'t> Bench<'t> {
         if let Some(units) = self.units {
             run = run.units(units);
         }
-        run.run_seekable(Cursor::new(&self.pairs[pair].cl), &mut nc).ok().map(|_| nc)
+        run.stream_seekable(Cursor::new(&self.pairs[pair].cl), &mut nc).ok().map(|_| nc)
     }
 
     /// The program of a pair, and how far it is from the proven one.

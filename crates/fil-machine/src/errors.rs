@@ -79,5 +79,9 @@ fil_diag::codes! {
         DoubtfulImport = 652, Warning, "imported value of uncertain meaning",
             "The numbers of this choice are not published; ours may differ from the vendor's.",
             "Compare the output with a program the machine has run, and set the key by name.";
+        /// An old name.
+        RenamedSetting = 653, Warning, "setting with a new name",
+            "A name was wrong or misleading. The old one goes on to mean the same.",
+            "Write the new name.";
     }
 }

@@ -6,6 +6,9 @@
 //! letters and the axis words of a block, [`axis_chain`] is the chain of rotary
 //! axes. [`files`] reads and writes `machine.toml` and option files. Nothing here
 //! knows CL records, FIL or NC programs.
+//!
+//! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
+//! change in any version, and all versions change together.
 
 pub mod address;
 pub mod axes;
@@ -33,6 +36,7 @@ pub mod number;
 pub mod numbering;
 pub mod osp_lengths;
 pub mod post_options;
+pub mod renamed;
 pub mod rotary_feed_rules;
 mod rotation;
 pub mod rounding;

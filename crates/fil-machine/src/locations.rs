@@ -45,10 +45,11 @@ pub struct Location {
 }
 
 impl Location {
-    /// The row of a key of `machine.toml`.
+    /// The row of a key of `machine.toml`; an [old key](crate::renamed) gives the row of the new one.
     pub fn named(name: &str) -> Option<&'static Location> {
         static NAMES: OnceLock<HashMap<&'static str, &'static Location>> = OnceLock::new();
-        NAMES.get_or_init(|| TABLE.iter().map(|row| (row.name, row)).collect()).get(name).copied()
+        let names = NAMES.get_or_init(|| TABLE.iter().map(|row| (row.name, row)).collect());
+        names.get(crate::renamed::key(name).unwrap_or(name)).copied()
     }
 
     /// The row of a location, if it has a name.

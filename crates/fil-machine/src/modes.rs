@@ -18,6 +18,7 @@ pub const INCH: f64 = 25.4;
 impl Unit {
     /// The one unit that a machine takes (`units.mode`); `None` where the CL file
     /// chooses.
+    #[doc(hidden)]
     pub fn of_machine(commons: &Commons) -> Option<Unit> {
         match commons.read(UNITS_MODE) {
             UnitsMode::Inch => Some(Unit::Inch),

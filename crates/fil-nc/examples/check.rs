@@ -8,13 +8,13 @@
 use std::fs;
 use std::process::ExitCode;
 
-use fil_cl::{Options, Reader};
-use fil_diag::Diag;
-use fil_machine::files::lay_over;
-use fil_machine::locations::default_commons;
-use fil_machine::{Commons, Unit};
+use fil_nc::cl::{Options, Reader};
+use fil_nc::diag::Diag;
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret::Running;
+use fil_nc::machine::files::lay_over;
+use fil_nc::machine::locations::default_commons;
+use fil_nc::machine::{Commons, Unit};
 use fil_nc::source::Source;
 use fil_nc::verify::{Allowed, Check, Report, Verdict, verify};
 

@@ -6,6 +6,41 @@
 //! [`motion`] is what a program does, as plain data. Nothing here shares a line
 //! with the post's output side: a fault of the writer must not hide itself in
 //! the reader.
+//!
+//! The checker alone: a program that judges NC programs depends on this crate and on no other of
+//! the workspace. Machines and their settings are in [`machine`], CL text in [`cl`], diagnostics in
+//! [`diag`].
+//!
+//! ```
+//! use fil_nc::machine::{Commons, Unit, locations::default_commons};
+//! use fil_nc::verify::{Allowed, Check, Verdict, verify};
+//! use fil_nc::{cl, dialect::Dialect, interpret::Running, source::Source};
+//!
+//! let machine: Commons = default_commons();
+//! let dialect = Dialect::new(&machine)?;
+//! let nc = Source::memory(b"G21 G90 G94 G17\nM3 S900\nG1 X1. Y2. Z3. F200.\nM30\n");
+//! let text = "UNITS / MM\nSPINDL / RPM, 900, CLW\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
+//! let report = verify(Check {
+//!     cl: cl::Reader::new(text.as_bytes(), "part.ncl", cl::Options::default()),
+//!     cl_name: "part.ncl",
+//!     unit: Some(Unit::Mm),
+//!     nc: &nc,
+//!     nc_name: "part.nc",
+//!     events: &mut Running::new(&nc, "part.nc", &dialect),
+//!     commons: &machine,
+//!     allowed: Allowed::default(),
+//!     skips_blocks: false,
+//! })?;
+//! assert_eq!(report.verdict(), Verdict::Agrees, "{:?}", report.findings);
+//! # Ok::<(), Box<fil_nc::diag::Diag>>(())
+//! ```
+//!
+//! Lengths in reports are in mm, angles in degrees. Limits: what a reader does not know of a control
+//! is an error or a place that is not verified, never a guess.
+
+pub use fil_cl as cl;
+pub use fil_diag as diag;
+pub use fil_machine as machine;
 
 pub mod bend;
 pub mod decimals;

@@ -6,6 +6,9 @@
 //! [`control`] writes blocks to its [`tape`], and its [`control_state`] learns from
 //! each block what the control knows. All settings live in the commons of
 //! [`fil_machine`].
+//!
+//! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
+//! change in any version, and all versions change together.
 
 pub mod block;
 pub mod cause;

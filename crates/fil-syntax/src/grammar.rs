@@ -1,3 +1,4 @@
+// @generated from grammar.lalrpop by `FILPOST_UPDATE=1 cargo test -p filpost-grammar`.
 // auto-generated: "lalrpop 0.23.2"
 // sha3: 5c6516590ccda0fbbe19aa619a1a9ff0c110f5a1e383d662085fd8df2f4827f2
 // features: 

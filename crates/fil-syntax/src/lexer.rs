@@ -1,3 +1,4 @@
+// @generated from lexer.logos by `FILPOST_UPDATE=1 cargo test -p filpost-grammar`.
 use logos::Logos;
 
 /// A token as it stands in the text, whatever statement it is part of.

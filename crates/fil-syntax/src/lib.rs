@@ -3,6 +3,9 @@
 //! [`parse`] never fails: it returns a tree of what could be read and a list of
 //! diagnostics. [`decode`] makes text of a file's bytes, [`print`](print::print)
 //! writes a tree back as FIL text, [`format()`] gives a text its canonical layout.
+//!
+//! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
+//! change in any version, and all versions change together.
 
 mod adapter;
 #[cfg(feature = "code-pages")]

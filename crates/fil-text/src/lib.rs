@@ -5,6 +5,9 @@
 //! Windows knows them are those of <https://learn.microsoft.com/windows/win32/intl/code-page-identifiers>;
 //! their tables are those of <https://www.unicode.org/Public/MAPPINGS> and, where a character has two
 //! bytes, of <https://encoding.spec.whatwg.org>.
+//!
+//! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
+//! change in any version, and all versions change together.
 
 mod pages;
 

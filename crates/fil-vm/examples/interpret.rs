@@ -8,8 +8,8 @@ use std::fs;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use fil_cl::{Options, Reader, Record, Vocabulary, Writer};
-use fil_diag::Diag;
+use fil_vm::cl::{Options, Reader, Record, Vocabulary, Writer};
+use fil_vm::diag::Diag;
 use fil_vm::errors::RunCode;
 use fil_vm::{CommonKind, FilFile, Functions, Host, Interpreter, Limits, LoadOptions, Site, load};
 

@@ -4,6 +4,26 @@
 //! name resolved. A [`Interpreter`] runs its global area once and then a section
 //! for each CL record that has one. It does no I/O: everything outside goes
 //! through [`Host`].
+//!
+//! The interpreter alone: a program that runs FIL for an end of its own depends on this crate and
+//! on no other of the workspace. Records and CL text are in [`cl`], diagnostics in [`diag`], trees
+//! of FIL text in [`syntax`].
+//!
+//! ```
+//! use fil_vm::cl::Vocabulary;
+//! use fil_vm::diag::Diag;
+//! use fil_vm::{FilFile, LoadOptions, load};
+//!
+//! let mut words = Vocabulary::new();
+//! let file = FilFile { name: "tool.fil", text: "CIMFIL/ON,LOADTL\nSTOP\nCIMFIL/OFF\nFINI\n" };
+//! let loaded = load(&[file], &mut words, LoadOptions::default());
+//! assert_eq!(loaded.unwrap().module.section_keys().collect::<Vec<_>>(), ["LOADTL"]);
+//! let wrong = FilFile { name: "wrong.fil", text: "A=(1+\nFINI\n" };
+//! let diags: Vec<Diag> = load(&[wrong], &mut words, LoadOptions::default()).err().unwrap();
+//! assert!(diags[0].is_error());
+//! ```
+//!
+//! Limits: no I/O and no clock but those of the host; time and memory of a script by [`Limits`].
 
 mod allow;
 mod arithmetic;
@@ -30,6 +50,10 @@ pub mod statements;
 mod texts;
 mod totals;
 mod value;
+
+pub use fil_cl as cl;
+pub use fil_diag as diag;
+pub use fil_syntax as syntax;
 
 pub use allow::is_allowable;
 pub use compile::{Analysis, FilFile, Included, LoadOptions, Loaded, Loader, analyze, load};

@@ -143,7 +143,7 @@ pub unsafe extern "C" fn filpost_builder_over(
     text: *const c_char,
 ) -> *mut Error {
     // SAFETY: the caller promises what `change_named` asks for.
-    unsafe { change_named(builder, [name, text], filpost::Builder::over) }
+    unsafe { change_named(builder, [name, text], filpost::Builder::lay_over) }
 }
 
 /// Lays one more setting on top, `rapid.split=0`.

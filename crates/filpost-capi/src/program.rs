@@ -67,7 +67,7 @@ unsafe fn start<'a>(program: *const Program, options: *const Options) -> Result<
     if let Some(name) = unsafe { pointer::optional_text(options.dialect, "dialect") }? {
         let dialect = ClDialect::named(name)
             .ok_or_else(|| Wrong::usage(format!("there is no dialect {name}")))?;
-        run = run.reading(Reading { dialect: Some(dialect), ..Reading::default() });
+        run = run.cl_options(Reading { dialect: Some(dialect), ..Reading::default() });
     }
     // SAFETY: as above.
     if let Some(name) = unsafe { pointer::optional_text(options.units, "units") }? {
@@ -145,7 +145,7 @@ pub unsafe extern "C" fn filpost_run(
         // SAFETY: the caller promises what `bytes` asks for.
         let cl = unsafe { pointer::bytes(cl, cl_length, "cl") }?;
         let mut nc = Vec::new();
-        let report = run.run_seekable(Cursor::new(cl), &mut nc)?;
+        let report = run.stream_seekable(Cursor::new(cl), &mut nc)?;
         // SAFETY: as above.
         unsafe { pointer::put(output, pointer::give(Output::new(nc, &report)), "output") }
     })
@@ -176,7 +176,7 @@ pub unsafe extern "C" fn filpost_run_files(
         let cl = unsafe { pointer::text(cl, "cl") }?;
         // SAFETY: as above.
         let nc = unsafe { pointer::text(nc, "nc") }?;
-        let report = run.run_files(Path::new(cl), Path::new(nc))?;
+        let report = run.post_files(Path::new(cl), Path::new(nc))?;
         if output.is_null() {
             return Ok(());
         }

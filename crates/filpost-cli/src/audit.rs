@@ -81,7 +81,7 @@ pub fn run_of<'o>(
     reading: Options,
     unit: Option<filpost::Unit>,
 ) -> Run<'o> {
-    let run = program.start().cl_name(cl_name).reading(reading);
+    let run = program.start().cl_name(cl_name).cl_options(reading);
     match unit {
         Some(unit) => run.units(unit),
         None => run,

@@ -57,3 +57,6 @@ fil_diag::codes! {
             "Correct what the audit names; without --audit the program is written as it is.";
     }
 }
+
+const _: () =
+    assert!(filpost::are_unique_beside(CommandCode::ALL), "a number is that of another crate");

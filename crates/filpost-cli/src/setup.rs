@@ -102,7 +102,7 @@ pub fn named(chosen: &Chosen, encoding: Option<&str>) -> Result<Option<Named>, E
 fn over(mut named: Named, machine: &Path, encoding: Option<&str>) -> Result<Named, Error> {
     let text = files::read_text(machine, encoding)?;
     let name = machine.display().to_string();
-    named.builder = named.builder.over(&name, &text);
+    named.builder = named.builder.lay_over(&name, &text);
     named.title = format!("{} with {name}", named.title);
     named.inputs.push(machine.to_path_buf());
     Ok(named)

@@ -109,7 +109,7 @@ pub fn line(post: &str, report: &Report, warnings: usize, time: Duration) -> Str
         counted(report.blocks, "block"),
         counted(warnings as u64, "warning")
     );
-    let extents = report.extents.as_ref().filter(|_| !report.words_beside);
+    let extents = report.extents.as_ref().filter(|_| !report.may_leave_extents);
     if let Some(extents) = extents {
         line.push_str(", CL points");
         for (axis, name) in ["X", "Y", "Z"].iter().enumerate() {
@@ -122,7 +122,7 @@ pub fn line(post: &str, report: &Report, warnings: usize, time: Duration) -> Str
         let separator = if extents.is_some() { " " } else { ", " };
         line.push_str(&format!("{separator}{unit} ({source})"));
     }
-    if report.words_beside {
+    if report.may_leave_extents {
         line.push_str(", no extents: POSTN or REPEAT wrote axis words");
     }
     if let Some(dialect) = &report.dialect {

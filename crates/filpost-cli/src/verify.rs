@@ -36,7 +36,7 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     let offsets = args.allow_offset.clone();
     let allowed =
         Allowed { tolerance: args.tol, between: args.between, offsets, ..Allowed::default() };
-    let mut run = program.start().cl_name(&output::input_name(&args.cl)).reading(options(args)?);
+    let mut run = program.start().cl_name(&output::input_name(&args.cl)).cl_options(options(args)?);
     if let Some(unit) = args.units.units {
         run = run.units(unit);
     }

@@ -89,7 +89,7 @@ impl Launched {
     /// Runs it to the end, or until the debugger stops it.
     ///
     /// # Errors
-    /// As [`filpost::Run::run`].
+    /// As [`filpost::Run::stream`].
     pub fn run(&self, debugger: &SharedDebugger) -> Result<Vec<u8>, Error> {
         let mut nc = Vec::new();
         // What a script writes appears nowhere: this is no run for the shop.

@@ -1,6 +1,21 @@
 //! The debug adapter: a run of filpost behind the debug adapter protocol, over standard input
 //! and output.
 //!
+//! **Goal.** A run of a post in a debugger: breakpoints in FIL and in the CL file, steps forward and
+//! back, variables, commons, the blocks as they come.
+//!
+//! **Model.** [`serve_stdio`] is what `filpost dap` runs; [`serve`] takes any input and output.
+//! Lines and columns count from 1.
+//!
+//! ```no_run
+//! fn main() -> Result<(), String> {
+//!     filpost_dap::serve_stdio()
+//! }
+//! ```
+//!
+//! **Limits.** One run a session. A step back runs the program again from its start, so it takes the
+//! time of the way there.
+//!
 //! One thread reads the client's requests, another one runs the program. While the run stands
 //! still, the requests that look at it go to its own thread, as only that one holds its state.
 //! Going back is a new run from the start to the place: a run with the same input does the

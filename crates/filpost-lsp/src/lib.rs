@@ -1,8 +1,25 @@
 //! The language server: `fil-ide` behind the language server protocol, over standard input
 //! and output, one request after the other.
 //!
-//! The messages are made and read as JSON values: the types of the whole protocol would
-//! cost more time to compile than all else of the command.
+//! **Goal.** FIL files, `machine.toml` and CL files in an editor: what is wrong while it is typed,
+//! with repairs, hover, completion, names, symbols, formatting, and the program of a case beside it.
+//!
+//! **Model.** [`serve_stdio`] is what `filpost lsp` runs; [`serve`] takes a connection of the
+//! `lsp-server` crate, for a server inside another program; [`Server`] answers requests one after
+//! the other. Positions are lines and UTF-16 units, as the protocol has them; files are
+//! `file:` addresses.
+//!
+//! **Quick start.** In a program that is started by an editor:
+//!
+//! ```no_run
+//! fn main() -> Result<(), String> {
+//!     filpost_lsp::serve_stdio()
+//! }
+//! ```
+//!
+//! **Limits.** One editor a process; the analysis is that of `fil-ide`. The messages
+//! are made and read as JSON values: the types of the whole protocol would cost more time to
+//! compile than all else of the command.
 
 mod answer;
 mod capabilities;

@@ -57,7 +57,7 @@ fn builder(py: Python<'_>, parts: Parts) -> PyResult<Builder> {
         builder = builder.option_file(name, text);
     }
     for (name, text) in &parts.over {
-        builder = builder.over(name, text);
+        builder = builder.lay_over(name, text);
     }
     for setting in &parts.settings {
         builder = builder.set(setting);

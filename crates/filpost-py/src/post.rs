@@ -60,7 +60,7 @@ pub struct Post {
 
 impl Post {
     fn start(&self, run: &RunOptions, name: &str) -> filpost::Run<'static> {
-        let mut started = self.program.start().cl_name(name).reading(self.reading);
+        let mut started = self.program.start().cl_name(name).cl_options(self.reading);
         if let Some(unit) = self.unit {
             started = started.units(unit);
         }
@@ -111,7 +111,7 @@ impl Post {
         let (input, name) = self.open(py, cl, &mut run)?;
         let started = self.start(&run, &name);
         let mut nc = Vec::new();
-        let done = py.detach(|| started.run_seekable(input, &mut nc));
+        let done = py.detach(|| started.stream_seekable(input, &mut nc));
         py.check_signals()?;
         let told = done.map_err(|error| diag::error(py, &error))?;
         Ok((PyBytes::new(py, &nc), report(py, &told)?))
@@ -127,7 +127,7 @@ impl Post {
     ) -> PyResult<Bound<'py, PyAny>> {
         let name = run.name.take().unwrap_or_else(|| cl.display().to_string());
         let started = self.start(&run, &name);
-        let done = py.detach(|| started.run_files(&cl, &nc));
+        let done = py.detach(|| started.post_files(&cl, &nc));
         report(py, &done.map_err(|error| diag::error(py, &error))?)
     }
 

@@ -92,7 +92,7 @@ impl Job {
         };
         let reading =
             reader::Options { dialect, raw: self.raw_records, ..reader::Options::default() };
-        let run = program.start().cl_name(&self.cl_name).reading(reading);
+        let run = program.start().cl_name(&self.cl_name).cl_options(reading);
         match &self.units {
             Some(name) => Ok(run.units(unit_named(name).ok_or_else(|| wrong("units", name))?)),
             None => Ok(run),

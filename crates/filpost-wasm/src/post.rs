@@ -57,6 +57,6 @@ fn run(job: &Job, program: &Program) -> Result<Posted, Fault> {
             origins.extend(std::iter::repeat_n(origin.clone(), lines));
         }
     });
-    let report = watched.run_seekable(Cursor::new(job.cl.as_bytes()), &mut nc)?;
+    let report = watched.stream_seekable(Cursor::new(job.cl.as_bytes()), &mut nc)?;
     Ok(Posted { nc, origins, report })
 }

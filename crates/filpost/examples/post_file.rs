@@ -32,6 +32,6 @@ fn post(cl: &Path, nc: &Path, fil: Option<&Path>) -> Result<(), filpost::Error> 
     if let Some(fil) = fil {
         builder = builder.fil(&fil.display().to_string(), &files::read_text(fil, None)?);
     }
-    builder.build()?.run_files(cl, nc)?;
+    builder.build()?.post_files(cl, nc)?;
     Ok(())
 }

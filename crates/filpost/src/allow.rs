@@ -41,7 +41,8 @@ impl LevelOf {
 /// # Errors
 /// E0713 for a name that is no code, and for an error that stands.
 pub fn allowable(name: &str) -> Result<&'static Code, Box<Diag>> {
-    let found = all_codes().into_iter().find(|code| code.name().eq_ignore_ascii_case(name));
+    let found =
+        number(name).and_then(|number| all_codes().into_iter().find(|code| code.number == number));
     match found {
         Some(code) if code.kind != CodeKind::Error => Ok(code),
         Some(code) => {
@@ -51,6 +52,13 @@ pub fn allowable(name: &str) -> Result<&'static Code, Box<Diag>> {
         }
         None => RunCode::CannotAllow.err(format!("there is no code {name}")),
     }
+}
+
+/// The number in the name of a code. The letter may be the other one: it says whether a code is an
+/// error or a warning where nobody sets its level, and that may have changed.
+fn number(name: &str) -> Option<u16> {
+    let digits = name.strip_prefix(['E', 'W', 'e', 'w'])?;
+    digits.parse().ok().filter(|_| digits.len() == 4)
 }
 
 /// A level by the names of its code, or `all`, and its own.

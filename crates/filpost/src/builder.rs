@@ -107,6 +107,7 @@ impl Builder {
     }
 
     /// Settings made in the program itself.
+    #[doc(hidden)]
     pub fn commons(mut self, commons: Commons) -> Self {
         self.machine = Some(Machine::Commons(Box::new(commons)));
         self
@@ -114,7 +115,7 @@ impl Builder {
 
     /// The text of a `machine.toml` whose settings are laid over the machine; of several
     /// the later one wins. `name` is what messages show.
-    pub fn over(mut self, name: &str, text: &str) -> Self {
+    pub fn lay_over(mut self, name: &str, text: &str) -> Self {
         self.over.push((name.into(), text.into()));
         self
     }
@@ -123,6 +124,34 @@ impl Builder {
     pub fn set(mut self, setting: &str) -> Self {
         self.settings.push(setting.into());
         self
+    }
+
+    /// One more setting on top, a whole number: flags and choices of `machine.toml` that are
+    /// numbers, counts, codes.
+    ///
+    /// ```
+    /// use filpost::Program;
+    ///
+    /// let builder = Program::builder().ready("fanuc-mill").set_int("seqno.increment", 5);
+    /// let program = builder.set_number("feed.upm_max", 2500.0).set_text("tape.encoding", "windows-1252");
+    /// assert!(program.build().is_ok());
+    /// let unknown = Program::builder().set_int("seqno.incremant", 5).build();
+    /// assert!(unknown.expect_err("refused").to_string().contains("seqno.increment"));
+    /// ```
+    pub fn set_int(self, key: &str, value: i64) -> Self {
+        self.set(&format!("{key}={value}"))
+    }
+
+    /// One more setting on top, a number in the unit that `machine.toml` has for the key:
+    /// lengths in the unit of the machine, degrees, per minute. One that is not finite is refused
+    /// by [`Builder::build`].
+    pub fn set_number(self, key: &str, value: f64) -> Self {
+        self.set(&format!("{key}={value:?}"))
+    }
+
+    /// One more setting on top, a text: a letter, a name of a choice, a text of the program.
+    pub fn set_text(self, key: &str, value: &str) -> Self {
+        self.set(&format!("{key}={}", toml::Value::from(value)))
     }
 
     /// The value of an option of the post: of those given for one option the last counts, and it
@@ -188,6 +217,7 @@ impl Builder {
 
     /// Makes a debug build: bytecode that tells a [`Debugger`](crate::debug::Debugger) of each
     /// statement and each outcome of a condition. It writes the same program, more slowly.
+    #[doc(hidden)]
     pub fn debug(mut self, debug: bool) -> Self {
         self.debug = debug;
         self
@@ -242,10 +272,9 @@ impl Builder {
     ///         _ => Err("this tool is in no drawer".into()),
     ///     })
     ///     .build()?;
-    /// let mut nc = Vec::new();
-    /// program.run("UNITS / MM\nLOADTL / 3\nFINI\n".as_bytes(), &mut nc)?;
-    /// assert!(String::from_utf8_lossy(&nc).contains("(END MILL 12)"));
-    /// let refused = program.run("UNITS / MM\nLOADTL / 4\nFINI\n".as_bytes(), &mut nc);
+    /// let posted = program.post("UNITS / MM\nLOADTL / 3\nFINI\n")?;
+    /// assert!(posted.text().contains("(END MILL 12)"));
+    /// let refused = program.post("UNITS / MM\nLOADTL / 4\nFINI\n");
     /// assert!(refused.expect_err("refused").to_string().contains("in no drawer"));
     /// # Ok::<(), filpost::Error>(())
     /// ```
@@ -367,6 +396,7 @@ impl Builder {
     ///
     /// # Errors
     /// All that is wrong with the machine and the settings.
+    #[doc(hidden)]
     pub fn build_machine(self) -> Result<Commons, Error> {
         let made = machine::commons_with(&self.layers(), self.machine.as_ref());
         made.map(|(commons, _)| commons).map_err(Error::Setup)

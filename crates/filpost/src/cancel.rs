@@ -19,7 +19,7 @@ use crate::error::RunCode;
 /// let token = CancelToken::new();
 /// let stop = token.clone();
 /// let run = std::thread::spawn(move || {
-///     program.start().cancel(&token).run("FINI\n".as_bytes(), Vec::new())
+///     program.start().cancel(&token).stream("FINI\n".as_bytes(), Vec::new())
 /// });
 /// stop.cancel();
 /// let error = run.join().expect("no panic").expect_err("cancelled");

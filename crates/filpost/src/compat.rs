@@ -25,6 +25,7 @@ const MOST_WORDS: usize = 1000;
 #[non_exhaustive]
 pub struct CompatFile {
     /// Readings of FIL.
+    #[doc(hidden)]
     pub readings: Compat,
     /// Major words that the post passes over, besides those that the machine lists.
     pub without_effect: Vec<String>,

@@ -8,6 +8,7 @@ use fil_cl::{Record, Vocabulary, record::kind};
 use fil_diag::Result;
 use fil_vm::{Host, Interpreter, SectionId, SectionMode};
 
+use crate::blocks::Block;
 use crate::debug::{self, DebugEvent, DebugState, World};
 use crate::editing::SharedEditor;
 use crate::error::{Error, RunCode};
@@ -77,7 +78,7 @@ impl<'o, 'r> Engine<'o, 'r> {
 
     /// Runs to the end; what the script wrote is not under its names yet.
     pub(crate) fn run(&mut self, nc: &mut dyn Write) -> Result<(Report, PendingFiles), Error> {
-        let observed = !self.outside.observers.is_empty();
+        let observed = !self.outside.observers.is_empty() || self.outside.kept.is_some();
         let debugged = self.outside.debugger.is_some();
         self.outside.spilled = Some(Spilled::default());
         let mut more = true;
@@ -128,6 +129,11 @@ impl<'o, 'r> Engine<'o, 'r> {
     /// What the run has to tell so far.
     pub(crate) fn report(&self) -> &Report {
         &self.outside.report
+    }
+
+    /// The blocks that were kept.
+    pub(crate) fn take_kept(&mut self) -> Vec<Block> {
+        self.outside.kept.take().unwrap_or_default()
     }
 
     /// The map of the run, to be ended.

@@ -152,10 +152,25 @@ impl Error {
 }
 
 impl std::fmt::Display for Error {
+    /// For each diagnostic a line `E0501 part.ncl:3:1: message`, a line for each further
+    /// place, a line for each note, such as the CL record and the FIL stack, and a line with the
+    /// hint. No line end at the end.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         for (index, diag) in self.diags().iter().enumerate() {
             let separator = if index == 0 { "" } else { "\n" };
             write!(f, "{separator}{diag}")?;
+            for place in diag.spans.iter().skip(1) {
+                write!(f, "\n  at {place}")?;
+                if !place.label.is_empty() {
+                    write!(f, ": {}", place.label)?;
+                }
+            }
+            for note in &diag.notes {
+                write!(f, "\n  note: {note}")?;
+            }
+            if !diag.advice().is_empty() {
+                write!(f, "\n  hint: {}", diag.advice())?;
+            }
         }
         Ok(())
     }
@@ -163,21 +178,57 @@ impl std::fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// The tables of all codes, by number.
+/// The codes of each crate.
+const TABLES: [&[Code]; 10] = [
+    fil_machine::errors::MachineCode::ALL,
+    fil_syntax::SyntaxCode::ALL,
+    fil_vm::errors::CompileCode::ALL,
+    fil_vm::errors::LintCode::ALL,
+    fil_vm::errors::RunCode::ALL,
+    fil_cl::errors::ClCode::ALL,
+    fil_post::errors::PostCode::ALL,
+    RunCode::ALL,
+    fil_nc::errors::NcCode::ALL,
+    fil_stock::errors::StockCode::ALL,
+];
+
+const _: () = assert!(are_unique_beside(&[]), "two codes have one number");
+
+/// True where no number comes twice in the tables of all crates and one more, for a crate that
+/// has codes of its own: `const _: () = assert!(are_unique_beside(MyCode::ALL));`.
+pub const fn are_unique_beside(more: &[Code]) -> bool {
+    let mut is_taken = [false; 10_000];
+    let mut table = 0;
+    while table <= TABLES.len() {
+        let codes = if table < TABLES.len() { TABLES[table] } else { more };
+        let mut at = 0;
+        while at < codes.len() {
+            let number = codes[at].number as usize;
+            if is_taken[number] {
+                return false;
+            }
+            is_taken[number] = true;
+            at += 1;
+        }
+        table += 1;
+    }
+    true
+}
+
+/// All codes of errors and warnings, by number.
 pub fn all_codes() -> Vec<&'static Code> {
-    let tables: [&'static [Code]; 10] = [
-        fil_machine::errors::MachineCode::ALL,
-        fil_syntax::SyntaxCode::ALL,
-        fil_vm::errors::CompileCode::ALL,
-        fil_vm::errors::LintCode::ALL,
-        fil_vm::errors::RunCode::ALL,
-        fil_cl::errors::ClCode::ALL,
-        fil_post::errors::PostCode::ALL,
-        RunCode::ALL,
-        fil_nc::errors::NcCode::ALL,
-        fil_stock::errors::StockCode::ALL,
-    ];
-    let mut codes: Vec<_> = tables.into_iter().flatten().collect();
+    let mut codes: Vec<_> = TABLES.into_iter().flatten().collect();
     codes.sort_by_key(|code| code.number);
     codes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_that_comes_twice_is_found() {
+        assert!(are_unique_beside(&[]));
+        assert!(!are_unique_beside(&fil_cl::ClCode::ALL[3..4]));
+    }
 }

@@ -45,8 +45,10 @@ pub enum Event<'a> {
     Message(&'a str),
     /// A warning; all of them are in the report as well.
     Warning(&'a Diag),
+    #[doc(hidden)]
     /// A motion was carried out. It comes before the blocks of its record.
     Motion(Motion),
+    #[doc(hidden)]
     /// A record and all it has caused are over. A line of a listing that was made of it
     /// goes through the script's macro first, where it has one.
     #[non_exhaustive]
@@ -64,6 +66,7 @@ pub enum Event<'a> {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct RunEnd<'a> {
+    #[doc(hidden)]
     /// Lengths, times and tools.
     pub tally: &'a Tally,
     /// Warnings and the unit, among others; its counts are those of `blocks` and `bytes`.

@@ -50,7 +50,7 @@ impl<'a> From<&'a Diag> for Finding<'a> {
             file: place.map(|place| place.file.as_str().into()),
             line: place.map(|place| place.line),
             column: place.map(TextSpan::column),
-            hint: diag.hint.as_deref().unwrap_or(diag.code.hint).into(),
+            hint: diag.advice().into(),
             notes: &diag.notes,
         }
     }

@@ -19,6 +19,7 @@ pub fn beside(
     beside_either(fil, &[], encoding)
 }
 
+#[doc(hidden)]
 /// The same, and files that are not beside the including file are looked for beside
 /// `others`, the option file for one.
 pub fn beside_either(

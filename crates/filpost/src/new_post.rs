@@ -61,7 +61,7 @@ fn first_program(base: &ReadyPost, program: &Program) -> Result<(&'static str, V
     let posted = parts.map(|part| {
         let mut nc = Vec::new();
         let run = program.start().cl_name("part.ncl");
-        run.run_seekable(io::Cursor::new(part), &mut nc).map(|_| (part, nc))
+        run.stream_seekable(io::Cursor::new(part), &mut nc).map(|_| (part, nc))
     });
     let [first, second] = posted;
     first.or_else(|refused| second.map_err(|_| refused))

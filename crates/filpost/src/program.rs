@@ -10,6 +10,7 @@ use fil_cl::{Record, Vocabulary};
 use fil_diag::{Diag, Level, Levels};
 #[cfg(feature = "files")]
 use fil_machine::locations::Location;
+use fil_machine::post_options::PostOption;
 use fil_machine::{Commons, contradictions, tape_style};
 use fil_text::CodePage;
 use fil_vm::{FilFile, Functions, Limits, LoadOptions, Module};
@@ -18,6 +19,7 @@ use crate::blocks::Blocks;
 use crate::builder::Builder;
 use crate::error::Error;
 use crate::granted::{Clock, Spawn};
+use crate::posted::Posted;
 use crate::report::Report;
 use crate::run::Run;
 use crate::script_files::Folders;
@@ -35,15 +37,12 @@ use crate::script_files::Folders;
 /// let threads: Vec<_> = (0..2)
 ///     .map(|_| {
 ///         let program = program.clone();
-///         std::thread::spawn(move || {
-///             let mut nc = Vec::new();
-///             program.run(cl.as_bytes(), &mut nc).map(|_| nc)
-///         })
+///         std::thread::spawn(move || program.post(cl))
 ///     })
 ///     .collect();
 /// for thread in threads {
-///     let nc = thread.join().expect("no panic")?;
-///     assert!(String::from_utf8_lossy(&nc).contains("G1 G43 X1. Y2. Z3. F200. H1"));
+///     let posted = thread.join().expect("no panic")?;
+///     assert!(posted.text().contains("G1 G43 X1. Y2. Z3. F200. H1"));
 /// }
 /// # Ok::<(), filpost::Error>(())
 /// ```
@@ -101,7 +100,7 @@ impl Program {
     ///             messages.push(text.trim().to_string());
     ///         }
     ///     })
-    ///     .run(cl.as_bytes(), std::io::sink())?;
+    ///     .stream(cl.as_bytes(), std::io::sink())?;
     /// assert_eq!(report.records, 4);
     /// # Ok::<(), filpost::Error>(())
     /// ```
@@ -109,55 +108,84 @@ impl Program {
         Run::new(self.clone())
     }
 
-    /// Posts a CL stream without any options; see [`Run::run`].
+    /// Posts the text of a CL file without any options; see [`Run::post`].
+    ///
+    /// ```
+    /// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
+    /// let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
+    /// let posted = program.post(cl)?;
+    /// assert!(posted.text().contains("G1 G43 X1. Y2. Z3. F200. H1"));
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Run::post`].
+    pub fn post(&self, cl: impl AsRef<[u8]>) -> Result<Posted, Error> {
+        self.start().post(cl)
+    }
+
+    /// Posts records from memory without any options; see [`Run::post_records`].
+    ///
+    /// # Errors
+    /// As [`Run::post_records`].
+    pub fn post_records(
+        &self,
+        vocabulary: Vocabulary,
+        records: impl IntoIterator<Item = Record, IntoIter: Send>,
+    ) -> Result<Posted, Error> {
+        self.start().post_records(vocabulary, records)
+    }
+
+    /// Posts a CL stream without any options and writes each block as it is made: **after an error
+    /// half a program may have been written**; see [`Run::stream`].
     ///
     /// ```
     /// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
     /// let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
     /// let mut nc = Vec::new();
-    /// let report = program.run(cl.as_bytes(), &mut nc)?;
+    /// let report = program.stream(cl.as_bytes(), &mut nc)?;
     /// assert_eq!((report.records, report.bytes), (5, nc.len() as u64));
     /// # Ok::<(), filpost::Error>(())
     /// ```
     ///
     /// # Errors
-    /// As [`Run::run`].
-    pub fn run(&self, cl: impl Read + Send, nc: impl Write) -> Result<Report, Error> {
-        self.start().run(cl, nc)
+    /// As [`Run::stream`].
+    pub fn stream(&self, cl: impl Read + Send, nc: impl Write) -> Result<Report, Error> {
+        self.start().stream(cl, nc)
     }
 
-    /// Posts a CL stream that can go back; see [`Run::run_seekable`].
+    /// Posts a CL stream that can go back, as [`Program::stream`] does; see [`Run::stream_seekable`].
     ///
     /// # Errors
-    /// As [`Run::run`].
-    pub fn run_seekable(
+    /// As [`Run::stream`].
+    pub fn stream_seekable(
         &self,
         cl: impl Read + Seek + Send,
         nc: impl Write,
     ) -> Result<Report, Error> {
-        self.start().run_seekable(cl, nc)
+        self.start().stream_seekable(cl, nc)
     }
 
-    /// Posts a CL file into an NC file; see [`Run::run_files`].
+    /// Posts a CL file into an NC file; see [`Run::post_files`].
     ///
     /// # Errors
-    /// As [`Run::run_files`].
+    /// As [`Run::post_files`].
     #[cfg(feature = "files")]
-    pub fn run_files(&self, cl: &Path, nc: &Path) -> Result<Report, Error> {
-        self.start().run_files(cl, nc)
+    pub fn post_files(&self, cl: &Path, nc: &Path) -> Result<Report, Error> {
+        self.start().post_files(cl, nc)
     }
 
-    /// Posts records from memory; see [`Run::run_records`].
+    /// Posts records from memory, as [`Program::stream`] does; see [`Run::stream_records`].
     ///
     /// # Errors
-    /// As [`Run::run_records`].
-    pub fn run_records(
+    /// As [`Run::stream_records`].
+    pub fn stream_records(
         &self,
         vocabulary: Vocabulary,
         records: impl IntoIterator<Item = Record, IntoIter: Send>,
         nc: impl Write,
     ) -> Result<Report, Error> {
-        self.start().run_records(vocabulary, records, nc)
+        self.start().stream_records(vocabulary, records, nc)
     }
 
     /// The blocks of a CL stream, one by one; see [`Run::blocks`].
@@ -171,6 +199,7 @@ impl Program {
     }
 
     /// The settings of the machine.
+    #[doc(hidden)]
     pub fn commons(&self) -> &Commons {
         &self.shared.prototype.control.commons
     }
@@ -183,10 +212,10 @@ impl Program {
     ///
     /// let builder = Program::builder().ready("fanuc-mill");
     /// let program = builder.set("tape.encoding=windows-1252").build()?;
-    /// let mut nc = Vec::new();
-    /// program.run("UNITS / MM\nPPRINT / FRÄSER\nFINI\n".as_bytes(), &mut nc)?;
-    /// assert!(nc.windows(8).any(|bytes| bytes == b"(FR\xC4SER)"));
-    /// assert!(program.nc_page().decode_all(&nc).contains("(FRÄSER)"));
+    /// let posted = program.post("UNITS / MM\nPPRINT / FRÄSER\nFINI\n")?;
+    /// assert!(posted.bytes().windows(8).any(|bytes| bytes == b"(FR\xC4SER)"));
+    /// assert!(posted.text().contains("(FRÄSER)"));
+    /// assert_eq!(program.nc_page().name(), "windows-1252");
     /// # Ok::<(), filpost::Error>(())
     /// ```
     pub fn nc_page(&self) -> CodePage {
@@ -194,7 +223,7 @@ impl Program {
     }
 
     /// The words of this program, for records from memory: a word that a record
-    /// names is looked up or added here, and [`Run::run_records`] takes the result.
+    /// names is looked up or added here, and [`Run::stream_records`] takes the result.
     pub fn vocabulary(&self) -> Vocabulary {
         self.shared.vocabulary.clone()
     }
@@ -222,13 +251,14 @@ impl Program {
     /// let code = filpost::locations::Location::named("program.rewind_code").expect("a setting");
     /// machine.set(code.kind, code.number.into(), 2.0).map_err(|diag| filpost::Error::Run(diag))?;
     /// let mut nc = Vec::new();
-    /// program.with_machine(machine)?.run("UNITS / MM\nFINI\n".as_bytes(), &mut nc)?;
+    /// program.with_machine(machine)?.stream("UNITS / MM\nFINI\n".as_bytes(), &mut nc)?;
     /// assert!(String::from_utf8_lossy(&nc).contains("M2\n"));
     /// # Ok::<(), filpost::Error>(())
     /// ```
     ///
     /// # Errors
     /// Settings that contradict each other.
+    #[doc(hidden)]
     pub fn with_machine(&self, commons: Commons) -> Result<Program, Error> {
         let wrong = contradictions::all(&commons);
         if !wrong.is_empty() {
@@ -287,7 +317,7 @@ impl Program {
     }
 
     /// The options of the post, with their values.
-    pub fn options(&self) -> &[fil_machine::post_options::PostOption] {
+    pub fn options(&self) -> &[PostOption] {
         self.commons().options().all()
     }
 
@@ -298,6 +328,7 @@ impl Program {
     }
 
     /// What a debug build can tell of; empty for any other.
+    #[doc(hidden)]
     pub fn outline(&self) -> crate::debug::Outline {
         self.shared.module.outline()
     }

@@ -10,6 +10,7 @@ pub const GENERIC_MILL: &str = "fanuc-mill";
 /// The post for a CL file that names none and is for a lathe.
 pub const GENERIC_LATHE: &str = "fanuc-lathe";
 
+#[doc(hidden)]
 /// The post for an NC program whose machine nobody names, by the family that its text is of.
 pub fn generic_for(family: Family) -> &'static str {
     match family {

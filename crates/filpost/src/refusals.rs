@@ -22,7 +22,7 @@ const MOST_WORDS: usize = 1000;
 /// ```
 /// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
 /// let cl = "UNITS / MM\nQMSNOTE / A\nLOADTL / 1\nQMSNOTE / B\nFEDRAT / 1..5\nFINI\n";
-/// let error = program.run(cl.as_bytes(), std::io::sink()).expect_err("refused");
+/// let error = program.stream(cl.as_bytes(), std::io::sink()).expect_err("refused");
 /// let refusals = error.refusals().expect("the CL file is wrong");
 /// let codes: Vec<String> = refusals.diags().iter().map(|diag| diag.code.name()).collect();
 /// assert_eq!(codes, ["E0513", "E0405"]);
@@ -51,11 +51,13 @@ struct Again {
 
 impl Refusals {
     /// Nothing is wrong yet.
+    #[doc(hidden)]
     pub fn new() -> Self {
         Refusals::default()
     }
 
     /// Adds an error.
+    #[doc(hidden)]
     pub fn add(&mut self, diag: Diag) {
         let kind = kind_of(&diag);
         match self.again.iter_mut().find(|known| known.kind == kind) {

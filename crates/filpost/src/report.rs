@@ -45,8 +45,11 @@ pub struct Report {
     pub blocks: u64,
     /// Bytes written.
     pub bytes: u64,
-    /// Warnings, in the order they were found.
+    /// Warnings of the run, in the order they were found.
     pub warnings: Vec<Diag>,
+    /// Warnings of [building](crate::Program::warnings) the program that was run; the same for
+    /// each of its runs.
+    pub build_warnings: Vec<Diag>,
     /// The dialect of the CL text, and why it was taken; `None` for records from memory.
     pub dialect: Option<Recognized>,
     /// The splines of the CL text that were read as lines, and the tolerance.
@@ -57,11 +60,11 @@ pub struct Report {
     /// The machines that MACHIN records name, each once, with the CL line.
     pub machines: Vec<(Machin, u32)>,
     /// The box around the points of the CL records that the post has carried out. The
-    /// program itself may reach further: see [`Report::words_beside`].
+    /// program itself may reach further: see [`Report::may_leave_extents`].
     pub extents: Option<Extents>,
     /// POSTN or REPEAT have written words beside those points, so that the program may
     /// leave `extents`: the summary and the listing don't show them.
-    pub words_beside: bool,
+    pub may_leave_extents: bool,
     /// Records for which a section gave the post nothing, by section. What the section
     /// kept of them in its variables may act later.
     pub swallowed: BTreeMap<String, u64>,
@@ -69,4 +72,20 @@ pub struct Report {
     pub script_files: Vec<PathBuf>,
     /// Files that FIL has read, each once.
     pub script_reads: Vec<PathBuf>,
+}
+
+impl Report {
+    /// All warnings: those of building the program, then those of the run.
+    ///
+    /// ```
+    /// let machine = "base = 'fanuc-mill'\n[seqno]\nincrement = 5\n";
+    /// let program = filpost::Program::builder().machine("machine.toml", machine).build()?;
+    /// let posted = program.post("UNITS / MM\nLOADTL / 1\n")?;
+    /// let codes: Vec<String> = posted.report().all_warnings().map(|w| w.code.to_string()).collect();
+    /// assert!(codes.contains(&"W0752".to_string()), "FINI is missing");
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    pub fn all_warnings(&self) -> impl Iterator<Item = &Diag> {
+        self.build_warnings.iter().chain(&self.warnings)
+    }
 }

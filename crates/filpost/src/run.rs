@@ -30,10 +30,13 @@ use crate::pending::PendingFiles;
 use crate::program::Program;
 use crate::report::Report;
 use crate::source::Stream;
-use crate::undecided;
 
 /// A run that has not begun: options first, then one of the methods that take a
-/// CL stream. Options that are left out are those of [`Program::run`].
+/// CL stream. Options that are left out are those of [`Program::post`].
+///
+/// [`Run::post`] gives a program that is whole, [`Run::post_files`] a file that appears whole.
+/// The methods named `stream` write blocks as they are made, so that memory does not grow with
+/// the program: after an error the writer has half a program, and the caller throws it away.
 ///
 /// ```
 /// use filpost::{CancelToken, Program};
@@ -47,7 +50,7 @@ use crate::undecided;
 ///     .cl_name("part.ncl")
 ///     .cancel(&token)
 ///     .observe(|event| blocks += u64::from(matches!(event, filpost::Event::Block { .. })))
-///     .run(cl.as_bytes(), std::io::sink())?;
+///     .stream(cl.as_bytes(), std::io::sink())?;
 /// assert_eq!(report.blocks, blocks);
 /// # Ok::<(), filpost::Error>(())
 /// ```
@@ -59,6 +62,7 @@ pub struct Run<'o> {
     pub(crate) units: Option<Unit>,
     cancel: Option<CancelToken>,
     observers: Vec<Observer<'o>>,
+    keeps_blocks: bool,
     debugger: Option<SharedDebugger>,
 }
 
@@ -70,6 +74,7 @@ pub(crate) struct Start<'o> {
     pub units: Option<Unit>,
     pub cancel: Option<CancelToken>,
     pub observers: Vec<Observer<'o>>,
+    pub keeps_blocks: bool,
     pub map: Option<map::Writer<'o>>,
     pub pass: Pass,
     pub debugger: Option<SharedDebugger>,
@@ -84,6 +89,7 @@ impl<'o> Run<'o> {
             units: None,
             cancel: None,
             observers: Vec::new(),
+            keeps_blocks: false,
             debugger: None,
         }
     }
@@ -96,7 +102,18 @@ impl<'o> Run<'o> {
 
     /// How CL text is read: dialect, encoding of texts, longest statement. With `raw`,
     /// sections see statements as they are written, and the post carries out what they mean.
-    pub fn reading(mut self, options: reader::Options) -> Self {
+    ///
+    /// ```
+    /// use filpost::Program;
+    /// use filpost::records::{ClDialect, Options};
+    ///
+    /// let program = Program::builder().ready("fanuc-mill").build()?;
+    /// let options = Options { dialect: Some(ClDialect::Creo), ..Options::default() };
+    /// let posted = program.start().cl_options(options).post("UNITS / MM\nFINI\n")?;
+    /// assert_eq!(posted.report().dialect.map(|found| found.dialect), Some(ClDialect::Creo));
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    pub fn cl_options(mut self, options: reader::Options) -> Self {
         self.reading = options;
         self
     }
@@ -110,8 +127,8 @@ impl<'o> Run<'o> {
     ///
     /// let program = Program::builder().ready("fanuc-mill").build()?;
     /// let cl = "LOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n".as_bytes();
-    /// assert!(program.run(cl, std::io::sink()).is_err());
-    /// let report = program.start().units(Unit::Mm).run(cl, std::io::sink())?;
+    /// assert!(program.stream(cl, std::io::sink()).is_err());
+    /// let report = program.start().units(Unit::Mm).stream(cl, std::io::sink())?;
     /// assert_eq!(report.unit, Some((Unit::Mm, UnitSource::Given)));
     /// # Ok::<(), filpost::Error>(())
     /// ```
@@ -133,9 +150,16 @@ impl<'o> Run<'o> {
         self
     }
 
+    /// Keeps the blocks with what made them, for [`Posted::blocks`](crate::Posted::blocks). They
+    /// need many times the memory of the program; [`Run::blocks`] hands out one after the other.
+    pub fn keep_blocks(mut self) -> Self {
+        self.keeps_blocks = true;
+        self
+    }
+
     /// How the CL text is read for this program: a script that takes subroutines sees them as
     /// they are written.
-    fn options(&self) -> reader::Options {
+    pub(crate) fn options(&self) -> reader::Options {
         const SUBROUTINES: [&str; 3] = ["DEFSUB", "ENDSUB", "CALSUB"];
         let is_taken = |key: &str| SUBROUTINES.iter().any(|word| key.starts_with(word));
         let taken = self.program.shared.module.section_keys().any(is_taken);
@@ -148,29 +172,34 @@ impl<'o> Run<'o> {
     /// Hands the run to a debugger, see [`crate::debug`]. Of FIL it is told in a program that
     /// was built with [`Builder::debug`](crate::Builder::debug); in any other it is told of CL
     /// records only. A first pass over the CL file is not shown to it.
+    #[doc(hidden)]
     pub fn debug(mut self, debugger: &SharedDebugger) -> Self {
         self.debugger = Some(SharedDebugger::clone(debugger));
         self
     }
 
-    /// Posts a CL stream. The stream can't go back, so POSTF(15) and (16) are
-    /// refused, and what asks for totals of the program: PROGF, TLISTF, OPERF, TOOLF(NEXT).
+    /// Posts a CL stream and writes each block as it is made: **after an error half a program may
+    /// have been written**, which the caller throws away. [`Run::post`] gives whole programs.
+    ///
+    /// The stream can't go back, so POSTF(15) and (16) are refused, and what asks for totals of
+    /// the program: PROGF, TLISTF, OPERF, TOOLF(NEXT).
     ///
     /// # Errors
     /// The first thing that is wrong; what was written until then is not a
     /// program. The writer's own errors come as E0702.
-    pub fn run(self, cl: impl Read + Send, mut nc: impl Write) -> Result<Report, Error> {
+    pub fn stream(self, cl: impl Read + Send, mut nc: impl Write) -> Result<Report, Error> {
         let reader = Reader::new(cl, &self.name(), self.options());
-        commit(self.post(reader, None, None, &mut nc).0)
+        commit(self.post_reader(reader, None, None, &mut nc).0)
     }
 
-    /// Posts a CL stream that can go back. Where FIL asks for totals of the program, the
+    /// Posts a CL stream that can go back; **after an error half a program may have been
+    /// written**, as with [`Run::stream`]. Where FIL asks for totals of the program, the
     /// stream is read twice, and functions of the embedding program are called in both passes;
     /// what scripts write and the commands they run come from the second pass alone.
     ///
     /// # Errors
-    /// As [`Run::run`].
-    pub fn run_seekable(
+    /// As [`Run::stream`].
+    pub fn stream_seekable(
         self,
         cl: impl Read + Seek + Send,
         nc: impl Write,
@@ -182,7 +211,8 @@ impl<'o> Run<'o> {
     /// for a caller that can still refuse the program.
     ///
     /// # Errors
-    /// As [`Run::run`].
+    /// As [`Run::stream`].
+    #[doc(hidden)]
     pub fn run_pending(
         self,
         mut cl: impl Read + Seek + Send,
@@ -194,20 +224,12 @@ impl<'o> Run<'o> {
         let name = self.name();
         let cant = |error| files::cant_read(Path::new(&name), &error);
         let start = cl.stream_position().map_err(cant)?;
-        let (program, reading, units) = (self.program.clone(), self.reading, self.units);
+        let again = self.again();
         let (mut report, pending) = self.run_unwatched(&mut cl, nc)?;
         cl.seek(SeekFrom::Start(start)).map_err(cant)?;
         let mut text = Vec::new();
         cl.read_to_end(&mut text).map_err(cant)?;
-        let again = |program: Program| Run { reading, units, ..Run::new(program) };
-        let levels = &program.shared.prototype.control.warnings.levels;
-        for warning in undecided::warnings(&program, &again, &text, &name) {
-            let level = levels.of_code(warning.code);
-            match warning.at_level(level) {
-                Some(denied) if denied.is_error() => return Err(Error::Run(Box::new(denied))),
-                warning => report.warnings.extend(warning),
-            }
-        }
+        again.warn_of_undecided(&text, &mut report)?;
         Ok((report, pending))
     }
 
@@ -219,7 +241,7 @@ impl<'o> Run<'o> {
     ) -> Result<(Report, PendingFiles), Error> {
         let first = self.first_pass(&mut cl)?;
         let reader = Reader::seekable(cl, &self.name(), self.options());
-        self.post(reader, first, None, &mut nc).0
+        self.post_reader(reader, first, None, &mut nc).0
     }
 
     /// Posts a CL file into an NC file. On any error there is no file under the
@@ -227,14 +249,14 @@ impl<'o> Run<'o> {
     ///
     /// ```no_run
     /// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
-    /// program.run_files("part.ncl".as_ref(), "part.nc".as_ref())?;
+    /// program.post_files("part.ncl".as_ref(), "part.nc".as_ref())?;
     /// # Ok::<(), filpost::Error>(())
     /// ```
     ///
     /// # Errors
-    /// As [`Run::run`]; E0701 and E0702 for files that can't be read or written.
+    /// As [`Run::stream`]; E0701 and E0702 for files that can't be read or written.
     #[cfg(feature = "files")]
-    pub fn run_files(mut self, cl: &Path, nc: &Path) -> Result<Report, Error> {
+    pub fn post_files(mut self, cl: &Path, nc: &Path) -> Result<Report, Error> {
         let input = File::open(cl).map_err(|error| files::cant_read(cl, &error))?;
         if input.metadata().is_ok_and(|found| found.is_dir()) {
             return Err(files::cant_read(cl, &io::Error::from(io::ErrorKind::IsADirectory)));
@@ -252,34 +274,34 @@ impl<'o> Run<'o> {
         Ok(report)
     }
 
-    /// Posts records from memory, in their order. They can't go back.
+    /// Posts records from memory, in their order, and writes each block as it is made: **after an
+    /// error half a program may have been written**. Records can't go back.
     ///
     /// `vocabulary` is [`Program::vocabulary`] with the words that the records add.
     /// The records are numbered from 1; one without a line gets its number as its
     /// line.
     ///
     /// ```
-    /// use filpost::cl::{Record, Word, words};
+    /// use filpost::records::{Record, Word};
     ///
     /// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
     /// let mut vocabulary = program.vocabulary();
-    /// let mut word = |name| Word::Minor(vocabulary.intern(name));
-    /// let mut units = Record::command(words::UNITS);
-    /// units.data.push(word("MM"));
-    /// let mut feed = Record::command(words::FEDRAT);
-    /// feed.data.extend([Word::Number(200.0), word("MMPM")]);
+    /// let mut units = Record::command(vocabulary.intern("UNITS"));
+    /// units.data.push(Word::Minor(vocabulary.intern("MM")));
+    /// let mut feed = Record::command(vocabulary.intern("FEDRAT"));
+    /// feed.data.extend([Word::Number(200.0), Word::Minor(vocabulary.intern("MMPM"))]);
     /// let path = (0..3).map(|x| Record::goto([f64::from(x), 0.0, 5.0], None));
     /// let records = [units, feed].into_iter().chain(path);
     /// let mut nc = Vec::new();
-    /// program.run_records(vocabulary, records, &mut nc)?;
+    /// program.stream_records(vocabulary, records, &mut nc)?;
     /// assert!(String::from_utf8_lossy(&nc).contains("X2."));
     /// # Ok::<(), filpost::Error>(())
     /// ```
     ///
     /// # Errors
-    /// As [`Run::run`]; E0712 for a record that no statement can make, and for
+    /// As [`Run::stream`]; E0712 for a record that no statement can make, and for
     /// a vocabulary of another program.
-    pub fn run_records(
+    pub fn stream_records(
         self,
         vocabulary: Vocabulary,
         records: impl IntoIterator<Item = Record, IntoIter: Send>,
@@ -293,7 +315,8 @@ impl<'o> Run<'o> {
     /// map calls the files; see [`map::Names::from_folder`].
     ///
     /// # Errors
-    /// As [`Run::run`]; E0702 for the map.
+    /// As [`Run::stream`]; E0702 for the map.
+    #[doc(hidden)]
     pub fn run_mapped(
         self,
         mut cl: impl Read + Seek + Send,
@@ -308,7 +331,7 @@ impl<'o> Run<'o> {
         let cant_write = |error| files::cant_write(Path::new("the line map"), &error);
         let module = &self.program.shared.module;
         let map = map::Writer::new(output, names, module, self.program.nc_page());
-        let (result, map) = self.post(reader, first, Some(map), &mut nc);
+        let (result, map) = self.post_reader(reader, first, Some(map), &mut nc);
         let result = result?;
         let digest = cl.finish().map_err(cant)?;
         map.map_or(Ok(()), |map| map.finish(digest)).map_err(cant_write)?;
@@ -352,19 +375,23 @@ impl<'o> Run<'o> {
             units: self.units,
             cancel: self.cancel.clone(),
             observers: Vec::new(),
+            keeps_blocks: false,
             debugger: None,
         }
     }
 
-    fn begin(self, map: Option<map::Writer<'o>>, pass: Pass) -> Start<'o> {
+    pub(crate) fn begin(self, map: Option<map::Writer<'o>>, pass: Pass) -> Start<'o> {
         let (cl_name, raw) = (self.name(), self.reading.raw);
-        let Run { program, units, cancel, observers, debugger, .. } = self;
-        Start { program, cl_name, raw, units, cancel, observers, map, pass, debugger }
+        let Run { program, units, cancel, observers, keeps_blocks, debugger, .. } = self;
+        Start { program, cl_name, raw, units, cancel, observers, keeps_blocks, map, pass, debugger }
     }
 
     /// Counts what the FIL or the tool list asks of the whole program, where they do; the input then stands
     /// where it stood.
-    fn first_pass(&self, cl: &mut (impl Read + Seek + Send)) -> Result<Option<FirstPass>, Error> {
+    pub(crate) fn first_pass(
+        &self,
+        cl: &mut (impl Read + Seek + Send),
+    ) -> Result<Option<FirstPass>, Error> {
         let shared = &self.program.shared;
         let lists_tools = shared.prototype.control.commons.read(loc::PROGRAM_TOOL_LIST);
         if !shared.module.asks_totals() && !lists_tools {
@@ -384,17 +411,26 @@ impl<'o> Run<'o> {
 
     /// Posts what a reader gives. The methods above are compiled for each kind of input
     /// and output, so they do no more than hand both over.
-    pub(crate) fn post(
+    pub(crate) fn post_reader(
         self,
         reader: Reader<'_>,
         first: Option<FirstPass>,
         map: Option<map::Writer<'o>>,
         nc: &mut dyn Write,
     ) -> Done<'o> {
-        let module = &self.program.shared.module;
-        let has_script = module.asks_totals() || module.edits_output() || !module.has_no_section();
-        let pass = Pass::writing(first, has_script);
+        let pass = Pass::writing(first, self.has_script());
         self.drive(Stream::Cl(Box::new(reader)), pass, map, nc)
+    }
+
+    /// True where FIL may do other things in a second pass than in the first.
+    pub(crate) fn has_script(&self) -> bool {
+        let module = &self.program.shared.module;
+        module.asks_totals() || module.edits_output() || !module.has_no_section()
+    }
+
+    /// True where somebody asks what made each block.
+    pub(crate) fn is_observed(&self) -> bool {
+        self.keeps_blocks || !self.observers.is_empty()
     }
 
     fn post_memory(self, memory: Memory<'_>, nc: &mut dyn Write) -> Result<Report, Error> {
@@ -408,7 +444,7 @@ impl<'o> Run<'o> {
         map: Option<map::Writer<'o>>,
         nc: &mut dyn Write,
     ) -> Done<'o> {
-        let observed = !self.observers.is_empty();
+        let observed = self.is_observed();
         let mut engine = Engine::new(self.begin(map, pass), records, observed);
         let result = engine.run(nc);
         (result, engine.take_map())

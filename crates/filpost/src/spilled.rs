@@ -8,7 +8,7 @@ use fil_diag::Result;
 use fil_post::Origin;
 use fil_post::errors::PostCode;
 
-use crate::blocks::{WordOrigin, words_of};
+use crate::blocks::{Block, WordOrigin, words_of};
 use crate::error::RunCode;
 use crate::event::Event;
 use crate::outside::Outside;
@@ -101,6 +101,14 @@ impl Outside<'_, '_> {
             let text = String::from_utf8_lossy(&tape.text[block.range.clone()]);
             let origin = tape.stacks.origin(block.cause);
             take(Shown { text: &text, origin: &origin, words: &|| words_of(tape, noted, block) });
+            if let Some(kept) = &mut self.kept {
+                kept.push(Block {
+                    number: kept.len() as u64 + 1,
+                    text: text.to_string(),
+                    origin: origin.clone(),
+                    words: words_of(tape, noted, block),
+                });
+            }
             for observer in self.observers.iter_mut() {
                 observer(Event::Block { text: &text, origin: &origin });
             }

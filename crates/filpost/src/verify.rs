@@ -16,8 +16,7 @@ use fil_nc::events::ahead;
 use fil_nc::interpret::{Running, has_skipped_blocks};
 use fil_nc::source::Source;
 use fil_nc::verify::{
-    Allowed, Check, Programs, Report, Unfollowed, compare_programs, compare_words,
-    refuse_another_part, verify,
+    Check, Programs, Unfollowed, compare_programs, compare_words, refuse_another_part, verify,
 };
 
 use crate::error::Error;
@@ -27,6 +26,9 @@ use crate::run::Run;
 use crate::spool::{Spool, into_source, spool};
 use crate::units;
 
+pub use fil_nc::verify::{
+    Allowed, Between, Deviation, Finding, FindingKind, Peak, Report, Unverified, Verdict,
+};
 pub use json::as_json;
 pub(crate) use json::finding_as_json;
 
@@ -57,14 +59,12 @@ impl Run<'_> {
     /// observers and the cancel token of this run.
     ///
     /// ```
-    /// use filpost::nc::verify::{Allowed, Verdict};
-    /// use filpost::verify::NcProgram;
+    /// use filpost::verify::{Allowed, NcProgram, Verdict};
     ///
     /// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
     /// let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n".as_bytes();
-    /// let mut nc = Vec::new();
-    /// program.run(cl, &mut nc)?;
-    /// let nc = NcProgram { text: &nc, name: "part.nc" };
+    /// let posted = program.post(cl)?;
+    /// let nc = NcProgram { text: posted.bytes(), name: "part.nc" };
     /// let (report, _) = program.start().verify(cl, nc, Allowed::default())?;
     /// assert_eq!(report.verdict(), Verdict::Agrees);
     /// # Ok::<(), filpost::Error>(())
@@ -87,6 +87,7 @@ impl Run<'_> {
     ///
     /// # Errors
     /// As [`Run::verify`].
+    #[doc(hidden)]
     pub fn verify_source(
         self,
         mut cl: impl Read + Send,

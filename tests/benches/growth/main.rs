@@ -85,7 +85,7 @@ fn post(fil: Option<&str>, cl: &Path, nc: &Path) -> Outcome<f64> {
         builder = builder.fil("bench.fil", fil);
     }
     let post = builder.build().map_err(|error| format!("{error:?}"))?;
-    post.run_files(cl, nc).map_err(|error| format!("{error:?}"))?;
+    post.post_files(cl, nc).map_err(|error| format!("{error:?}"))?;
     Ok(start.elapsed().as_secs_f64())
 }
 

@@ -59,7 +59,7 @@ fn fil() -> Outcome<Run> {
     let mut nc = Vec::new();
     let cl = "FROM / 0, 0, 0\nFINI\n";
     let start = Instant::now();
-    post.run(cl.as_bytes(), &mut nc).map_err(|error| format!("{error:?}"))?;
+    post.stream(cl.as_bytes(), &mut nc).map_err(|error| format!("{error:?}"))?;
     let seconds = start.elapsed().as_secs_f64();
     let nc = String::from_utf8(nc)?;
     let comments = nc.lines().filter_map(|line| {

@@ -71,7 +71,7 @@ pub fn post(fil: Option<&str>, cl: &Path, nc: &Path) -> Outcome<()> {
         builder = builder.fil("bench.fil", fil);
     }
     let post = builder.build().map_err(|error| format!("{error:?}"))?;
-    post.run_files(cl, nc).map_err(|error| format!("{error:?}"))?;
+    post.post_files(cl, nc).map_err(|error| format!("{error:?}"))?;
     Ok(())
 }
 

@@ -61,9 +61,9 @@ fn ready(number: u8) -> Builder {
 /// Posts a CL file; an error is as good as a result.
 fn post(post: &Program, cl: &[u8]) {
     let mut nc = Vec::new();
-    if post.run_seekable(std::io::Cursor::new(cl), &mut nc).is_ok() {
+    if post.stream_seekable(std::io::Cursor::new(cl), &mut nc).is_ok() {
         let mut again = Vec::new();
-        let _ = post.run_seekable(std::io::Cursor::new(cl), &mut again);
+        let _ = post.stream_seekable(std::io::Cursor::new(cl), &mut again);
         assert!(nc == again, "the second run differs");
     }
 }
@@ -103,7 +103,7 @@ pub fn dialect_bytes(data: &[u8]) {
     assert_eq!(read(), read());
     let Ok(built) = ready(*raw).build() else { return };
     let mut nc = Vec::new();
-    let _ = built.start().reading(options).run(cl, &mut nc);
+    let _ = built.start().cl_options(options).stream(cl, &mut nc);
 }
 
 /// Bytes as an arrangement of two rotary axes anywhere, and as points with tool axes for it:
@@ -114,7 +114,7 @@ pub fn chains(data: &[u8]) {
     let Ok(post) = chain(settings).build() else { return };
     let part = turning_part(points);
     let mut nc = Vec::new();
-    if post.run(part.as_bytes(), &mut nc).is_err() {
+    if post.stream(part.as_bytes(), &mut nc).is_err() {
         return;
     }
     let nc = String::from_utf8(nc).expect("a text");
@@ -177,7 +177,7 @@ pub fn controls(data: &[u8]) {
     let Ok(post) = ready(*first).build() else { return };
     let cl = statements(choices);
     let mut nc = Vec::new();
-    if post.run(cl.as_bytes(), &mut nc).is_err() {
+    if post.stream(cl.as_bytes(), &mut nc).is_err() {
         return;
     }
     let nc = String::from_utf8(nc).expect("a text");

@@ -24,7 +24,8 @@ pub fn parser(path: &Path) -> Result<String, Box<dyn Error>> {
         .process_file(path)?;
     let made = path.with_extension("rs");
     let name = made.file_name().ok_or("the grammar has no name")?;
-    Ok(fs::read_to_string(out.path().join(name))?)
+    let parser = fs::read_to_string(out.path().join(name))?;
+    Ok(format!("{}{parser}", header("grammar.lalrpop")))
 }
 
 /// The lexer that logos makes from the enum at `path`, as Rust text: the enum itself, and its
@@ -38,5 +39,10 @@ pub fn lexer(path: &Path) -> Result<String, Box<dyn Error>> {
     let mut made = logos_codegen::strip_attributes(tokens.clone());
     made.extend(logos_codegen::generate(tokens));
     let text = prettyplease::unparse(&syn::parse2(made)?);
-    Ok(format!("use logos::Logos;\n\n{text}"))
+    Ok(format!("{}use logos::Logos;\n\n{text}", header("lexer.logos")))
+}
+
+/// The first line of what is made of a grammar.
+fn header(grammar: &str) -> String {
+    format!("// @generated from {grammar} by `FILPOST_UPDATE=1 cargo test -p filpost-grammar`.\n")
 }

@@ -46,7 +46,7 @@ fn post_with(
             messages.push(text.to_string());
         }
     });
-    run.run_seekable(Cursor::new(cl.as_bytes()), &mut nc)?;
+    run.stream_seekable(Cursor::new(cl.as_bytes()), &mut nc)?;
     Ok((String::from_utf8(nc).expect("an NC program is text"), messages))
 }
 
@@ -301,7 +301,7 @@ fn a_changed_script_is_found() {
             let post = with_script(post, SCRIPT, &changed).build();
             let post = post.as_ref().expect("the script is sound");
             let mut nc = Vec::new();
-            let ran = post.run_seekable(Cursor::new(thread.cl().as_bytes()), &mut nc);
+            let ran = post.stream_seekable(Cursor::new(thread.cl().as_bytes()), &mut nc);
             ran.is_ok() && judge(thread, &String::from_utf8_lossy(&nc)).is_err()
         });
         assert!(found, "{new} for {old} was not found");

@@ -40,7 +40,7 @@ fn post(script: &str, cl: &str) -> Result<String, Error> {
     let post = Program::builder().machine("machine.toml", &machine);
     let post = with_script(post, "embos-grid.fil", script);
     let mut nc = Vec::new();
-    post.build()?.run(cl.as_bytes(), &mut nc)?;
+    post.build()?.stream(cl.as_bytes(), &mut nc)?;
     Ok(String::from_utf8(nc).expect("NC is text"))
 }
 
@@ -202,7 +202,7 @@ fn a_head_that_can_turn_over_is_refused() {
         let post = Program::builder().machine("machine.toml", machine);
         let post = with_script(post, "embos-grid.fil", &script);
         let mut nc = Vec::new();
-        post.build().and_then(|post| post.run(cl.as_bytes(), &mut nc)).map(|_| nc)
+        post.build().and_then(|post| post.stream(cl.as_bytes(), &mut nc)).map(|_| nc)
     };
     assert_eq!(run(&machine).expect("it is posted"), nc.as_bytes());
     for (from, to) in [

@@ -60,7 +60,7 @@ fn refused(kind: &str, told: &str, may_refuse: &[&str]) -> Outcome {
 pub fn judge(post: &Program, lines: &[Line], may_refuse: &[&str]) -> (Outcome, String) {
     let cl = text(lines);
     let mut nc = Vec::new();
-    if let Err(error) = post.run(cl.as_bytes(), &mut nc) {
+    if let Err(error) = post.stream(cl.as_bytes(), &mut nc) {
         return (refused("refused", &error.to_string(), may_refuse), String::new());
     }
     let nc = String::from_utf8_lossy(&nc).into_owned();

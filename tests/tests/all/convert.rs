@@ -16,11 +16,11 @@ type Posted = Result<Vec<u8>, String>;
 fn post(program: &Program, text: &[u8], dialect: Option<ClDialect>, unit: Option<Unit>) -> Posted {
     let mut nc = Vec::new();
     let reading = filpost::cl::Options { dialect, ..Default::default() };
-    let mut run = program.start().reading(reading);
+    let mut run = program.start().cl_options(reading);
     if let Some(unit) = unit {
         run = run.units(unit);
     }
-    run.run_seekable(Cursor::new(text), &mut nc).map(|_| nc).map_err(|error| code(&error))
+    run.stream_seekable(Cursor::new(text), &mut nc).map(|_| nc).map_err(|error| code(&error))
 }
 
 fn code(error: &Error) -> String {
@@ -103,7 +103,7 @@ fn small_files_of_each_dialect() {
             .iter()
             .find_map(|program| {
                 let run = program.start().units(Unit::Mm);
-                run.run(&text[..], std::io::sink()).ok()
+                run.stream(&text[..], std::io::sink()).ok()
             })
             .unwrap();
         assert_eq!(report.dialect.unwrap().dialect, dialect, "{stem}");

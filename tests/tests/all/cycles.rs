@@ -61,7 +61,7 @@ fn acts(cl: &str, cycles: bool, more: &[String]) -> (String, Vec<Act>) {
     }
     let post = builder.build().expect("a machine");
     let mut nc = Vec::new();
-    post.run(cl.as_bytes(), &mut nc).unwrap_or_else(|error| panic!("{cl}\n{error}"));
+    post.stream(cl.as_bytes(), &mut nc).unwrap_or_else(|error| panic!("{cl}\n{error}"));
     let nc = String::from_utf8(nc).expect("a program in ASCII");
     let events = back_check::events(post.commons(), &nc).unwrap_or_else(|diag| {
         panic!("{nc}\n{}", diag.message);
@@ -175,6 +175,6 @@ fn a_tap_is_never_single_moves() {
     let builder = Program::builder().generic("fanuc-mill").set("units.mode=2");
     let post = builder.set("cycle.tap_code=none").build().expect("a machine");
     let cl = "SPINDL/RPM,500,CLW\nRAPID\nGOTO/0,0,10\nCYCLE/TAP,DEPTH,8,MMPR,1,CLEAR,2\nGOTO/0,0,0\nFINI\n";
-    let refused = post.run(cl.as_bytes(), Vec::new()).expect_err("refused");
+    let refused = post.stream(cl.as_bytes(), Vec::new()).expect_err("refused");
     assert_eq!(refused.diags()[0].code.name(), "E0507");
 }

@@ -126,7 +126,7 @@ fn post(text: &str, dialect: Option<ClDialect>) -> Result<(String, Report), Erro
     let program = Program::builder().generic("linuxcnc-mill").build()?;
     let mut nc = Vec::new();
     let reading = Options { dialect, ..Options::default() };
-    let report = program.start().reading(reading).run(text.as_bytes(), &mut nc)?;
+    let report = program.start().cl_options(reading).stream(text.as_bytes(), &mut nc)?;
     Ok((String::from_utf8(nc).unwrap(), report))
 }
 

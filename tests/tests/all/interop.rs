@@ -52,7 +52,7 @@ fn post_with(ready: &str, cl: &Path) -> Vec<u8> {
     let post = filpost::Program::builder().generic(ready).build().unwrap();
     let mut nc = Vec::new();
     let input = io::BufReader::new(File::open(cl).unwrap());
-    post.run(input, &mut nc).unwrap_or_else(|error| panic!("{}: {error}", cl.display()));
+    post.stream(input, &mut nc).unwrap_or_else(|error| panic!("{}: {error}", cl.display()));
     nc
 }
 
@@ -175,7 +175,7 @@ fn inverse_time_is_the_feed_of_the_cl_file() {
     let post = filpost::Program::builder().generic("linuxcnc-mill").build().unwrap();
     let run = |cl: &str| {
         let mut nc = Vec::new();
-        post.run(cl.as_bytes(), &mut nc).unwrap();
+        post.stream(cl.as_bytes(), &mut nc).unwrap();
         let nc = String::from_utf8(nc).unwrap();
         (rs274::run(&program, &nc).unwrap_or_else(|said| panic!("{said}\n{nc}")), nc)
     };

@@ -87,7 +87,7 @@ fn cl(targets: &[Target], feed: f64, lintol: Option<f64>) -> String {
 /// `between`; `None` where the machine can't make the path.
 fn checked(post: &Program, cl: &str, between: f64) -> Option<(String, Report)> {
     let mut nc = Vec::new();
-    post.run(cl.as_bytes(), &mut nc).ok()?;
+    post.stream(cl.as_bytes(), &mut nc).ok()?;
     let nc = String::from_utf8(nc).expect("ASCII");
     let allowed = Allowed { between: Some(between), ..Allowed::default() };
     let report = back_check::check(post.commons(), cl, &nc, allowed);
@@ -258,7 +258,7 @@ fn an_undivided_motion_is_said() {
     for (tolerance, lintol) in [(0.0, ""), (0.01, "LINTOL / OFF\n")] {
         let post = post(&table, None, tolerance, 0);
         let cl = cl(&targets, 500.0, None).replace("MULTAX", &format!("{lintol}MULTAX"));
-        let outcome = post.run(cl.as_bytes(), &mut Vec::new()).expect("a program");
+        let outcome = post.stream(cl.as_bytes(), &mut Vec::new()).expect("a program");
         let codes: Vec<String> = outcome.warnings.iter().map(|diag| diag.code.name()).collect();
         assert!(codes.contains(&"W0591".to_string()), "{codes:?}");
     }
@@ -305,7 +305,7 @@ fn real_files_stay_on_their_lines() {
                 if says { run } else { run.units(Unit::Mm) }
             };
             let mut nc = Vec::new();
-            if let Err(error) = start().run(&cl[..], &mut nc) {
+            if let Err(error) = start().stream(&cl[..], &mut nc) {
                 // Cutter compensation in a plane that this machine does not turn upright.
                 assert_eq!(error.diags()[0].code.name(), "E0544", "{name}: {error}");
                 continue;

@@ -17,7 +17,7 @@ const SAMPLE: u64 = 60;
 
 fn nc_of(post: &Program, cl: &str) -> Result<String, String> {
     let mut nc = Vec::new();
-    match post.run(cl.as_bytes(), &mut nc) {
+    match post.stream(cl.as_bytes(), &mut nc) {
         Ok(_) => Ok(String::from_utf8(nc).unwrap()),
         Err(error) => Err(error.to_string()),
     }

@@ -41,7 +41,7 @@ fn ready_programs_are_read_as_linuxcnc_reads_them() {
         let post = filpost::Program::builder().generic("linuxcnc-mill").build().unwrap();
         let dialect = Dialect::new(post.commons()).unwrap();
         let mut nc = Vec::new();
-        if post.run(fs::File::open(cl).unwrap(), &mut nc).is_err() {
+        if post.stream(fs::File::open(cl).unwrap(), &mut nc).is_err() {
             return None;
         }
         let nc = String::from_utf8(nc).unwrap();

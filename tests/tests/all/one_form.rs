@@ -51,8 +51,8 @@ fn run(
         let program = builder.build().map_err(|error| error.to_string())?;
         let reading = Options { raw, ..Options::default() };
         let mut nc = Vec::new();
-        let run = program.start().reading(reading).units(Unit::Mm);
-        match run.run_seekable(Cursor::new(cl), &mut nc) {
+        let run = program.start().cl_options(reading).units(Unit::Mm);
+        match run.stream_seekable(Cursor::new(cl), &mut nc) {
             Ok(report) => {
                 let said = report.warnings.iter().filter(|diag| diag.code.number == 326);
                 return Ok((said.map(|diag| diag.message.clone()).collect(), nc));

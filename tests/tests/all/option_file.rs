@@ -101,7 +101,7 @@ fn the_imported_machine_posts_a_real_file() {
         .build()
         .unwrap();
     let mut nc = Vec::new();
-    post.run(cl.as_bytes(), &mut nc).unwrap();
+    post.stream(cl.as_bytes(), &mut nc).unwrap();
     let nc = String::from_utf8(nc).unwrap();
     let blocks: Vec<&str> = nc.lines().collect();
     // The user's blocks of the file, no numbers, no M words, rapid and straight

@@ -219,7 +219,7 @@ FINI
 fn a_live_tool_of_a_lathe_lies_as_in_the_cl_file() {
     let post = Program::builder().generic("fanuc-mill-turn").build().unwrap();
     let mut nc = Vec::new();
-    post.start().run(Cursor::new(RADIAL), &mut nc).unwrap();
+    post.start().stream(Cursor::new(RADIAL), &mut nc).unwrap();
     let text = Text { name: "out.nc", bytes: &nc };
     let mut drawing = plot::program(text, post.commons()).unwrap();
     assert!(drawing.lathe && drawing.path.axes.is_empty(), "the program does not say it");
@@ -257,7 +257,7 @@ fn a_tilting_tool_shows_its_axis() {
     let Some(browser) = browser::program() else { return };
     let post = Program::builder().generic("fanuc-5x-tables").build().unwrap();
     let mut nc = Vec::new();
-    post.start().run(Cursor::new(TILTED), &mut nc).unwrap();
+    post.start().stream(Cursor::new(TILTED), &mut nc).unwrap();
     let text = Text { name: "out.nc", bytes: &nc };
     let drawing = plot::program(text, post.commons()).unwrap();
     let cl = plot::cl_file(cl_text(Text { name: "part.ncl", bytes: TILTED.as_bytes() })).unwrap();
@@ -326,7 +326,7 @@ fn a_program_without_motions_opens() {
 fn posted(ready: &str, cl: &str) -> Drawing {
     let post = Program::builder().generic(ready).build().unwrap();
     let mut nc = Vec::new();
-    post.start().run(Cursor::new(cl.to_string()), &mut nc).unwrap();
+    post.start().stream(Cursor::new(cl.to_string()), &mut nc).unwrap();
     plot::program(Text { name: "out.nc", bytes: &nc }, post.commons()).unwrap()
 }
 

@@ -160,7 +160,7 @@ fn post(
     let mut nc = Vec::new();
     let run = post.start();
     let run = if let Some(unit) = unit { run.units(unit) } else { run };
-    match run.run(cl, &mut nc) {
+    match run.stream(cl, &mut nc) {
         Ok(_) => Ok(nc),
         Err(error) => Err(Box::new(error.diags()[0].clone())),
     }
@@ -375,7 +375,7 @@ fn our_klartext_has_the_points_of_the_pairs() {
         let (cl, wanted) = pair(&data, part, programs);
         let mut nc = Vec::new();
         let upright = turned_upright(&cl);
-        post.start().run(upright.as_bytes(), &mut nc).unwrap();
+        post.start().stream(upright.as_bytes(), &mut nc).unwrap();
         let nc = String::from_utf8(nc).unwrap();
         let found = klartext::steps(&nc).unwrap();
         assert_same(part, &wanted, &found);

@@ -70,7 +70,7 @@ proptest! {
         let mut nc = Vec::new();
         let texts = ["PPRINT", "INSERT", "PARTNO"];
         let has_text = cl.lines().any(|line| texts.iter().any(|text| line.starts_with(text)));
-        if post.run(cl.as_bytes(), &mut nc).is_ok() && !has_text {
+        if post.stream(cl.as_bytes(), &mut nc).is_ok() && !has_text {
             for line in String::from_utf8(nc).unwrap().lines() {
                 prop_assert!(is_block(line), "{line}\n{cl}");
             }
@@ -82,7 +82,7 @@ proptest! {
         let run = || {
             let post = Program::builder().build().unwrap();
             let mut nc = Vec::new();
-            let result = post.run(cl.as_bytes(), &mut nc);
+            let result = post.stream(cl.as_bytes(), &mut nc);
             (nc, result.map(|report| report.blocks).map_err(|error| error.to_string()))
         };
         prop_assert_eq!(run(), run());
@@ -96,7 +96,7 @@ proptest! {
         let _ = Program::builder().machine("machine.toml", &text).build();
         let _ = Program::builder().option_file("uncx01.p01", &text).build();
         for post in built.into_iter().chain(Program::builder().build()) {
-            let _ = post.run(bytes.as_slice(), std::io::sink());
+            let _ = post.stream(bytes.as_slice(), std::io::sink());
         }
     }
 }
@@ -113,10 +113,10 @@ fn ten_megabytes_of_noise_end_soon() {
     .take(10_000_000)
     .collect();
     let post = Program::builder().build().unwrap();
-    assert!(post.run(noise.as_slice(), std::io::sink()).is_err());
+    assert!(post.stream(noise.as_slice(), std::io::sink()).is_err());
     let text: String = noise.iter().map(|byte| char::from(byte & 0x7f)).collect();
     assert!(Program::builder().fil("noise.fil", &text).build().is_err());
-    assert!(post.run(text.as_bytes(), std::io::sink()).is_err());
+    assert!(post.stream(text.as_bytes(), std::io::sink()).is_err());
 }
 
 #[test]

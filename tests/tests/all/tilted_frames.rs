@@ -201,7 +201,7 @@ fn faces_in_tilted_frames_do_what_the_cl_file_asks_for() {
         let cl = program(&machine, &mut random);
         let mut nc = Vec::new();
         let name = format!("program {number}, {chain}, {}", settings.0);
-        match post.run(cl.as_bytes(), &mut nc) {
+        match post.stream(cl.as_bytes(), &mut nc) {
             Err(error) if error.to_string().contains("pole") => {
                 poles += 1;
                 continue;

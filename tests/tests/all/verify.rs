@@ -88,7 +88,9 @@ fn programs_agree_with_what_they_come_from() {
         let (report, reference) = match verified {
             Ok(verified) => verified,
             Err(refused) => {
-                let _ = writeln!(list, "{}: {refused}", case.name);
+                for diag in refused.diags() {
+                    let _ = writeln!(list, "{}: {diag}", case.name);
+                }
                 continue;
             }
         };

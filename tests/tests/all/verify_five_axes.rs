@@ -207,7 +207,7 @@ fn posted_paths_agree_and_a_changed_last_digit_is_found() {
         let post = post(&rotaries, pivot, split && !leans);
         let cl = cl(&targets);
         let mut nc = Vec::new();
-        if post.run(cl.as_bytes(), &mut nc).is_err() {
+        if post.stream(cl.as_bytes(), &mut nc).is_err() {
             // The machine can't reach the axis.
             continue;
         }
@@ -316,7 +316,7 @@ fn divided_lines_agree_and_a_point_left_out_is_found() {
         let post = &mut post(&rotaries, pivot, false);
         let cl = cl(&targets);
         let mut nc = Vec::new();
-        if post.run(cl.as_bytes(), &mut nc).is_err() {
+        if post.stream(cl.as_bytes(), &mut nc).is_err() {
             continue;
         }
         let nc = String::from_utf8(nc).unwrap();
@@ -356,7 +356,7 @@ fn paths_with_tool_tip_control_agree_and_a_changed_last_digit_is_found() {
         let post = post(&rotaries, pivot, false);
         let cl = cl(&targets);
         let mut plain = Vec::new();
-        if post.run(cl.as_bytes(), &mut plain).is_err() {
+        if post.stream(cl.as_bytes(), &mut plain).is_err() {
             continue;
         }
         let plain = String::from_utf8(plain).unwrap();

@@ -10,7 +10,7 @@ fn nc_of(ready: &str, settings: &[&str], cl: &str) -> String {
     let post = settings.iter().fold(start, |builder, setting| builder.set(setting));
     let cl = format!("UNITS / MM\n{}\nFINI\n", cl.replace("; ", "\n"));
     let mut nc = Vec::new();
-    post.build().expect("a machine").run(cl.as_bytes(), &mut nc).expect("a program");
+    post.build().expect("a machine").stream(cl.as_bytes(), &mut nc).expect("a program");
     let nc = String::from_utf8(nc).expect("text");
     let bare = |line: &str| match line.split_once(' ') {
         Some((number, rest)) if number.starts_with('N') => rest.to_string(),

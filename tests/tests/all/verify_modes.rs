@@ -99,7 +99,7 @@ fn no_false_alarm_of_texts_and_offsets() {
     ] {
         let cl = cl(text);
         let mut nc = Vec::new();
-        let posted = post.run(cl.as_bytes(), &mut nc);
+        let posted = post.stream(cl.as_bytes(), &mut nc);
         let nc = String::from_utf8(nc).expect("a text");
         if posted.is_err() {
             continue;
@@ -114,7 +114,7 @@ fn no_false_alarm_of_texts_and_offsets() {
     }
     let cl = cl_without(&cl(""));
     let mut nc = Vec::new();
-    post.run(cl.as_bytes(), &mut nc).expect("a program");
+    post.stream(cl.as_bytes(), &mut nc).expect("a program");
     let nc = String::from_utf8(nc).expect("a text").replacen("G0 X0.", "G55 G0 X0.", 1);
     let check = |offsets: Vec<u32>| {
         let allowed = Allowed { offsets, ..Allowed::default() };
@@ -140,7 +140,7 @@ fn a_rounded_dwell_of_klartext_agrees() {
     let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / 500, CLW\nFEDRAT / 100, MMPM\nGOTO / 0, 0, 0\n\
               DELAY / 3.4375\nGOTO / 1, 2, 3\nFINI\n";
     let mut nc = Vec::new();
-    post.run(cl.as_bytes(), &mut nc).expect("a program");
+    post.stream(cl.as_bytes(), &mut nc).expect("a program");
     let nc = String::from_utf8(nc).expect("a text");
     let check = |nc: &str| {
         let report = back_check::check(post.commons(), cl, nc, Allowed::default());
@@ -178,7 +178,7 @@ fn a_text_of_insert_that_is_moved_is_found() {
     let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nRAPID\nGOTO / 0, 0, 50\n\
               INSERT / M50\nFEDRAT / 100, MMPM\nGOTO / 1, 0, 50\nGOTO / 2, 0, 50\nFINI\n";
     let mut nc = Vec::new();
-    post.run(cl.as_bytes(), &mut nc).expect("a program");
+    post.stream(cl.as_bytes(), &mut nc).expect("a program");
     let nc = String::from_utf8(nc).expect("ASCII");
     let check = |nc: &str| back_check::check(post.commons(), cl, nc, Allowed::default());
     assert_eq!(check(&nc).expect("a report").verdict(), Verdict::Agrees);
@@ -200,7 +200,7 @@ fn a_machine_allows_offsets() {
     };
     let post = machine("");
     let mut nc = Vec::new();
-    post.run(cl.as_bytes(), &mut nc).expect("a program");
+    post.stream(cl.as_bytes(), &mut nc).expect("a program");
     let nc = String::from_utf8(nc).expect("ASCII").replacen("G0 X", "G55 G0 X", 1);
     let verdict = |allowed: &str| {
         let post = machine(allowed);

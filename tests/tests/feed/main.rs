@@ -34,7 +34,7 @@ fn post(script: Option<&str>, cl: &str) -> Result<(String, Vec<Diag>), Error> {
     }
     let post = builder.build()?;
     let mut nc = Vec::new();
-    let report = post.start().cl_name("pass.ncl").run(cl.as_bytes(), &mut nc)?;
+    let report = post.start().cl_name("pass.ncl").stream(cl.as_bytes(), &mut nc)?;
     let mut warnings: Vec<Diag> = post.warnings().iter().cloned().chain(report.warnings).collect();
     // How POSTF is read is said of each script that asks for the items of a record.
     warnings.retain(|warning| warning.code.name() != "W0218");

@@ -131,7 +131,7 @@ fn example(
     let report = post
         .start()
         .cl_name("part.ncl")
-        .run_seekable(Cursor::new(cl.text.as_bytes()), &mut found)
+        .stream_seekable(Cursor::new(cl.text.as_bytes()), &mut found)
         .map_err(|error| refused(cl, &error))?;
     same(&nc.text, &String::from_utf8_lossy(&found), &format!("the NC of line {}", nc.line))?;
     let warnings = post.warnings().iter().chain(&report.warnings);

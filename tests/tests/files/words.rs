@@ -18,7 +18,7 @@ fn check(path: &Path) -> Result<(), Failed> {
     let header = Header::read(&text).map_err(Failed::from)?;
     let mut nc = Vec::new();
     let result =
-        header.post().and_then(|post| post.run_seekable(Cursor::new(text.as_bytes()), &mut nc));
+        header.post().and_then(|post| post.stream_seekable(Cursor::new(text.as_bytes()), &mut nc));
     match (result, &header.error) {
         (Err(error), Some(expected)) => {
             let diag = &error.diags()[0];

@@ -159,7 +159,7 @@ fn program_without(base: &str, settings: &[String]) -> Option<Program> {
 
 fn post(program: &Program, cl: &str) -> Option<(Vec<u8>, Vec<String>)> {
     let mut nc = Vec::new();
-    let report = program.start().run_seekable(Cursor::new(cl.as_bytes()), &mut nc).ok()?;
+    let report = program.start().stream_seekable(Cursor::new(cl.as_bytes()), &mut nc).ok()?;
     Some((nc, report.warnings.iter().map(|diag| diag.code.name()).collect()))
 }
 

@@ -5,6 +5,9 @@ mod architecture;
 mod code;
 mod learn_judge;
 mod metrics;
+mod new;
+#[cfg(test)]
+mod public;
 mod shadow;
 
 use std::process::ExitCode;
@@ -17,6 +20,9 @@ use clap::Parser;
 enum Command {
     LearnJudge(learn_judge::Args),
     Metrics(metrics::Args),
+    NewCode(new::CodeArgs),
+    NewPost(new::PostArgs),
+    NewWord(new::WordArgs),
     Shadow(shadow::Args),
 }
 
@@ -24,6 +30,9 @@ fn main() -> ExitCode {
     let done = match Command::parse() {
         Command::LearnJudge(args) => learn_judge::command(&args),
         Command::Metrics(args) => metrics::command(&args),
+        Command::NewCode(args) => new::code(&args),
+        Command::NewPost(args) => new::post(&args),
+        Command::NewWord(args) => new::word(&args),
         Command::Shadow(args) => shadow::command(&args),
     };
     done.unwrap_or_else(|said| {

@@ -98,6 +98,7 @@ pub struct DialectRules {
     /// The same for text statements.
     pub(crate) rewrite_text: Option<RewriteText>,
     /// Major words that inform and do nothing, with the reason.
+    #[doc(hidden)]
     pub without_effect: &'static [(&'static str, &'static str)],
 }
 
@@ -211,6 +212,7 @@ impl ClDialect {
     ];
 
     /// The table of the dialect.
+    #[doc(hidden)]
     pub const fn rules(self) -> &'static DialectRules {
         match self {
             ClDialect::Generic => &generic::RULES,
@@ -253,6 +255,7 @@ impl ClDialect {
     }
 
     /// What proves which way the arcs of the dialect turn.
+    #[doc(hidden)]
     pub fn proof_of_arcs(self) -> Option<&'static str> {
         self.rules().circle.and_then(|form| form.proof)
     }
@@ -280,6 +283,7 @@ impl ClDialect {
     /// assert_eq!(ClDialect::Generic.turning_otherwise(), [ClDialect::GenericLeft]);
     /// assert_eq!(ClDialect::SolidWorksCam.turning_otherwise(), []);
     /// ```
+    #[doc(hidden)]
     pub fn turning_otherwise(self) -> Vec<ClDialect> {
         if self.is_told() {
             return Vec::new();

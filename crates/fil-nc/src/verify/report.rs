@@ -202,6 +202,7 @@ impl Report {
 
     /// Takes up what was found when the control left out the blocks that may be skipped.
     #[must_use]
+    #[doc(hidden)]
     pub fn with_blocks_left_out(mut self, other: Report) -> Report {
         for finding in other.findings {
             if !self.findings.contains(&finding) {

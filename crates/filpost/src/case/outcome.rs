@@ -113,7 +113,7 @@ impl Case {
     /// Posts the case's CL file. The second part are all warnings.
     ///
     /// # Errors
-    /// As [`Case::program`] and [`crate::Run::run`].
+    /// As [`Case::program`] and [`crate::Run::stream`].
     pub fn run(&self) -> Result<(Vec<u8>, Vec<Diag>), Error> {
         self.run_whole(&self.program()?, None).map(|ran| (ran.nc, ran.warnings))
     }
@@ -188,7 +188,7 @@ impl Case {
     pub fn start<'o>(&self, program: &Program) -> Run<'o> {
         let CaseFile { dialect, raw_records: raw, .. } = self.file;
         let reading = reader::Options { dialect, raw, ..reader::Options::default() };
-        let run = program.start().cl_name(&self.file.cl).reading(reading);
+        let run = program.start().cl_name(&self.file.cl).cl_options(reading);
         match self.file.units {
             Some(unit) => run.units(unit),
             None => run,
@@ -198,7 +198,7 @@ impl Case {
     /// Posts the case's CL file and audits the program, which is given too.
     ///
     /// # Errors
-    /// As [`Run::run`] and [`Run::audit`].
+    /// As [`Run::stream`] and [`Run::audit`].
     pub fn audit(&self, program: &Program) -> Result<(Audit, Vec<u8>), Error> {
         let cl = self.cl_text()?;
         let names = Names { fil: program.fil_files(), ..Names::default() };
@@ -223,7 +223,7 @@ impl Case {
         if self.file.listing.is_some() {
             run = run.observe(listing.observer());
         }
-        let report = run.run_seekable(Cursor::new(cl), &mut nc)?;
+        let report = run.stream_seekable(Cursor::new(cl), &mut nc)?;
         let mut reads = self.inputs(program);
         reads.extend(report.script_reads);
         self.refuse_over(&reads)?;

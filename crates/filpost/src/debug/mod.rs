@@ -29,7 +29,7 @@
 //! let lines = Arc::new(Mutex::new(Lines::default()));
 //! let debugger: SharedDebugger = lines.clone();
 //! let cl = "UNITS / MM\nLOADTL / 3\nFINI\n".as_bytes();
-//! program.start().debug(&debugger).run(cl, std::io::sink())?;
+//! program.start().debug(&debugger).stream(cl, std::io::sink())?;
 //! assert_eq!(lines.lock().unwrap().0, [2, 3, 4]);
 //! # Ok::<(), filpost::Error>(())
 //! ```

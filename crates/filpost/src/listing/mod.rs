@@ -23,7 +23,7 @@ pub use rules::ListingRules;
 /// let program = Program::builder().ready("fanuc-mill").build()?;
 /// let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
 /// let mut listing = Listing::new(Vec::new());
-/// program.start().observe(listing.observer()).run(cl.as_bytes(), std::io::sink())?;
+/// program.start().observe(listing.observer()).stream(cl.as_bytes(), std::io::sink())?;
 /// let text = String::from_utf8(listing.finish()?)?;
 /// assert!(text.contains("GOTO") && text.contains("X1. Y2. Z3."), "{text}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -48,7 +48,7 @@ const BESIDE: &str = "Extents left out, and times and lengths are those of the C
 /// The totals of a run, those of a tool as rows of their own kind.
 pub(super) fn totals(end: &RunEnd<'_>) -> Vec<(Row, String)> {
     let total = &end.tally.total;
-    let beside = end.report.words_beside;
+    let beside = end.report.may_leave_extents;
     let unit = end.report.unit.map_or_else(String::new, |(unit, _)| format!(" {unit}"));
     let meters = end.bytes as f64 / CHARACTERS_AN_INCH * METERS_IN_AN_INCH;
     let mut lines = vec![

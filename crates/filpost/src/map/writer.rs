@@ -218,7 +218,7 @@ mod tests {
         let header = header(&names, &program.shared.module, CodePage::UTF_8);
         let mut made = Vec::new();
         let writer = Writer::with_maker(&mut made, header, maker);
-        let (done, map) = program.start().post(reader, None, Some(writer), &mut Vec::new());
+        let (done, map) = program.start().post_reader(reader, None, Some(writer), &mut Vec::new());
         done.unwrap();
         map.unwrap().finish(cl.finish().unwrap()).unwrap();
         String::from_utf8(made).unwrap()

@@ -125,7 +125,7 @@ impl Outside<'_, '_> {
                 Extents::add(&mut self.report.extents, point);
             }
         } else if matches!(record.major, words::POSTN | words::REPEAT) {
-            self.report.words_beside = true;
+            self.report.may_leave_extents = true;
         }
         self.ended |= record.kind == kind::FINI;
         Ok(())

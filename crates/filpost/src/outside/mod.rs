@@ -18,6 +18,7 @@ use fil_machine::locations::{INPUT_CREO_RECORDS, PROGRAM_TIME_STAMP, PROGRAM_TOO
 use fil_machine::{Kind, Unit};
 use fil_vm::{Host, Module, SectionId};
 
+use crate::blocks::Block;
 use crate::cancel::CancelToken;
 use crate::coming::Stretch;
 use crate::debug::SharedDebugger;
@@ -49,6 +50,8 @@ pub(crate) struct Outside<'o, 'r> {
     pub report: Report,
     /// The embedding program's observers.
     pub observers: Vec<Observer<'o>>,
+    /// Blocks with their causes, for a host that wants them at the end.
+    pub kept: Option<Vec<Block>>,
     /// Records are given to sections as they are written.
     raw: bool,
     /// Lengths and times, while somebody looks on.
@@ -103,8 +106,18 @@ pub(crate) struct Outside<'o, 'r> {
 impl<'o, 'r> Outside<'o, 'r> {
     /// Everything as it is before the first record.
     pub fn new(start: Start<'o>, records: Stream<'r>) -> Self {
-        let Start { program, cl_name, raw, units, cancel, observers, map, mut pass, debugger } =
-            start;
+        let Start {
+            program,
+            cl_name,
+            raw,
+            units,
+            cancel,
+            observers,
+            keeps_blocks,
+            map,
+            mut pass,
+            debugger,
+        } = start;
         let shared = &program.shared;
         let counts = !observers.is_empty() || pass.counts();
         let module = Arc::clone(&shared.module);
@@ -116,12 +129,13 @@ impl<'o, 'r> Outside<'o, 'r> {
             source: Source::new(records, raw || counts || !module.has_no_section()),
             module,
             post,
-            report: Report::default(),
+            report: Report { build_warnings: shared.warnings.clone(), ..Report::default() },
             careful: raw || counts,
             tally: counts.then(Box::default),
             pass,
             last_done: 0,
             observers,
+            kept: keeps_blocks.then(Vec::new),
             raw,
             units,
             cancel,

@@ -13,7 +13,7 @@ fn with(fil: &str) -> Builder {
 
 fn post(builder: Builder) -> Result<String, Error> {
     let mut nc = Vec::new();
-    builder.build()?.run(PART.as_bytes(), &mut nc)?;
+    builder.build()?.stream(PART.as_bytes(), &mut nc)?;
     Ok(String::from_utf8(nc).expect("the program is text"))
 }
 
@@ -228,7 +228,7 @@ fn no_link_put_in_under_way_leads_out_of_the_folder() {
     let reads = "DMY=FILEF(1,READ,'sub/kept.txt')\nT1=TEXT/READ,1\nPPRINT/T1";
     let post = with(reads).grant_read(&granted).build().expect("a post");
     swap();
-    let error = post.run(PART.as_bytes(), Vec::new()).expect_err("a link that leads out");
+    let error = post.stream(PART.as_bytes(), Vec::new()).expect_err("a link that leads out");
     assert_eq!(error.diags()[0].code.name(), "E0706");
 }
 
@@ -272,7 +272,7 @@ fn no_race_for_a_link_leads_out_of_the_folder() {
         });
         for _ in 0..2000 {
             let mut nc = Vec::new();
-            let ended = post.run(PART.as_bytes(), &mut nc);
+            let ended = post.stream(PART.as_bytes(), &mut nc);
             assert!(!String::from_utf8_lossy(&nc).contains("secret"), "a file from outside");
             ends[usize::from(ended.is_err())] += 1;
         }
@@ -295,7 +295,7 @@ fn a_run_of_files_does_not_write_over_its_input() {
     let fil = "DMY=FILEF(1,READ,'tools.txt')";
     let post = with(fil).grant_read(folder.path()).build().expect("a post");
     for output in ["part.ncl", "./part.ncl", "tools.txt"] {
-        let error = post.run_files(&part, &folder.path().join(output)).expect_err("refused");
+        let error = post.post_files(&part, &folder.path().join(output)).expect_err("refused");
         assert_eq!(error.diags()[0].code.name(), "E0702", "{output}");
     }
     assert_eq!(names(folder.path()), ["part.ncl", "tools.txt"]);
@@ -313,7 +313,7 @@ fn a_script_does_not_write_over_the_files_of_its_run() {
     for name in ["part.ncl", "part.nc"] {
         let fil = format!("DMY=FILEF(1,WRITE,'{name}')\nWRITE/1,'new'");
         let post = with(&fil).grant_write(folder.path()).build().expect("a post");
-        let error = post.run_files(&at("part.ncl"), &at("part.nc")).expect_err("refused");
+        let error = post.post_files(&at("part.ncl"), &at("part.nc")).expect_err("refused");
         assert_eq!(error.diags()[0].code.name(), "E0702");
         assert_eq!(names(folder.path()), ["part.ncl"]);
         assert_eq!(read(at("part.ncl")), PART);

@@ -12,7 +12,7 @@ fn mill() -> Program {
 }
 
 fn refused(program: &Program, cl: &str) -> Refusals {
-    match program.run(cl.as_bytes(), io::sink()) {
+    match program.stream(cl.as_bytes(), io::sink()) {
         Err(Error::Refused(refusals)) => *refusals,
         other => panic!("{other:?}"),
     }
@@ -123,7 +123,7 @@ fn the_words_that_are_offered_make_the_file_run() {
     let toml = format!("[words]\nwithout_effect = [{}]", words.join(", "));
     let compat = read_compat("compat.toml", &toml).expect("a compat file");
     let program = Program::builder().generic("fanuc-mill").compat(compat).build().expect("a post");
-    program.run(cl.as_bytes(), io::sink()).expect("a program");
+    program.stream(cl.as_bytes(), io::sink()).expect("a program");
     let again = refused(&program, &cl.replace("FINI", "THIRDWD\nFINI"));
     assert_eq!(again.listed_words(), ["SHOPNOTE", "SITEWD"]);
 }
@@ -137,7 +137,7 @@ fn observers_hear_nothing_after_the_first_error() {
             lines.push(record.line);
         }
     });
-    run.run(cl.as_bytes(), io::sink()).expect_err("refused");
+    run.stream(cl.as_bytes(), io::sink()).expect_err("refused");
     assert_eq!(lines, [1, 2, 3, 4, 5]);
 }
 
@@ -167,7 +167,7 @@ fn files_and_blocks_give_the_same_errors() {
     let cl = format!("{HEAD}SITEWD\nROTABL / 5\nFINI\n");
     let of_blocks = mill().blocks(cl.as_bytes()).find_map(Result::err).expect("refused");
     let of_seekable =
-        mill().start().run_seekable(Cursor::new(&cl), io::sink()).expect_err("refused");
+        mill().start().stream_seekable(Cursor::new(&cl), io::sink()).expect_err("refused");
     assert_eq!(of_blocks.to_string(), of_seekable.to_string());
     assert_eq!(of_blocks.diags().len(), 2);
 }

@@ -21,7 +21,7 @@ fn mill(fil: &str) -> Builder {
 fn told(builder: Builder, cl: &str) -> Result<Vec<String>, String> {
     let program = builder.build().map_err(|error| error.to_string())?;
     let mut nc = Vec::new();
-    let run = program.start().cl_name("part.ncl").run_seekable(Cursor::new(cl), &mut nc);
+    let run = program.start().cl_name("part.ncl").stream_seekable(Cursor::new(cl), &mut nc);
     run.map_err(|error| error.diags()[0].to_string())?;
     let nc = String::from_utf8(nc).expect("text");
     let comments = nc.lines().filter_map(|line| line.split_once(" (")).map(|(_, text)| text);
@@ -177,7 +177,7 @@ fn an_error_of_the_cl_file_is_told_as_ever() {
 #[test]
 fn a_stream_is_refused_where_a_script_asks() {
     let asks = "CIMFIL/ON,FINI\nVV=PROGF(TIME)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
-    let run = |fil| mill(fil).build().expect("a post").run(CL.as_bytes(), sink());
+    let run = |fil| mill(fil).build().expect("a post").stream(CL.as_bytes(), sink());
     assert!(run(asks).expect_err("a stream").diags()[0].to_string().starts_with("E0409"));
     let idle = "IF(1.EQ.2)VV=PROGF(TIME)\nFINI\n";
     assert!(run(idle).is_ok());

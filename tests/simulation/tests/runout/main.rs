@@ -64,7 +64,7 @@ fn post(machine: &str, script: &str) -> Program {
 
 fn run(post: &Program, cl: &str) -> Result<String, Error> {
     let mut nc = Vec::new();
-    post.run(cl.as_bytes(), &mut nc)?;
+    post.stream(cl.as_bytes(), &mut nc)?;
     Ok(String::from_utf8(nc).expect("NC is text"))
 }
 
@@ -257,7 +257,7 @@ fn the_page_shows_the_matrix_of_the_skew_case() {
                 shown += &format!("{line}\n");
             }
         })
-        .run(Cursor::new(cl), &mut Vec::new())
+        .stream(Cursor::new(cl), &mut Vec::new())
         .expect("it is posted");
     assert!(text("docs/papers/run-out.md").contains(&shown), "{shown}");
     let read = |value: f64, c: f64| Reading { value, c };

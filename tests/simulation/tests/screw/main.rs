@@ -40,7 +40,7 @@ fn post_changed(
         })
         .build()?;
     let mut nc = Vec::new();
-    let report = post.start().cl_name("screw.ncl").run(Cursor::new(job.cl()), &mut nc)?;
+    let report = post.start().cl_name("screw.ncl").stream(Cursor::new(job.cl()), &mut nc)?;
     Ok((String::from_utf8(nc).expect("NC is text"), report.warnings))
 }
 

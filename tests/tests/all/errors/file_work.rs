@@ -42,7 +42,7 @@ impl Shop {
 }
 
 fn post_file(cl: &Path, nc: &Path) -> Result<filpost::Report, Error> {
-    Program::builder().build().expect("the generic mill").run_files(cl, nc)
+    Program::builder().build().expect("the generic mill").post_files(cl, nc)
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn e0717_program_too_long() {
     let post = |output_bytes| {
         let limits = Limits { output_bytes, ..Limits::default() };
         let builder = Program::builder().fil("t.fil", fil).limits(limits);
-        builder.build()?.run_files(&shop.path("part.ncl"), &shop.path("out.nc"))
+        builder.build()?.post_files(&shop.path("part.ncl"), &shop.path("out.nc"))
     };
     assert_eq!(names(&post(2_000_000).expect_err("refused")), ["E0717"]);
     assert_eq!(shop.names(), ["part.ncl"]);
@@ -164,7 +164,7 @@ fn e0702_read_only_file() {
 fn e0702_full_disk() {
     let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("/dev/full");
     let post = Program::builder().build().expect("the generic mill");
-    let error = post.run(PART.as_bytes(), full).expect_err("refused");
+    let error = post.stream(PART.as_bytes(), full).expect_err("refused");
     assert_eq!(names(&error), ["E0702"]);
 }
 
@@ -176,7 +176,7 @@ fn e0702_disk_full_under_way() {
     let result = files::write_whole(&nc, |_| {
         let post = Program::builder().build()?;
         let mut room = [0u8; 100];
-        post.run(PART.as_bytes(), &mut room[..])
+        post.stream(PART.as_bytes(), &mut room[..])
     });
     assert_eq!(names(&result.expect_err("refused")), ["E0702"]);
     assert_eq!(std::fs::read_to_string(&nc).expect("untouched"), OLDER);
@@ -240,7 +240,7 @@ fn a_case_allows_codes() {
 fn e0940_unit_not_known() {
     let post = Program::builder().build().expect("the generic mill");
     let mut nc = Vec::new();
-    post.run(PART.as_bytes(), &mut nc).expect("a program");
+    post.stream(PART.as_bytes(), &mut nc).expect("a program");
     let cl = PART.replace("UNITS / MM\n", "");
     let checked = |unit: Option<Unit>| {
         let run = unit.map_or(post.start(), |unit| post.start().units(unit));
@@ -261,7 +261,7 @@ fn e0941_another_part() {
     let cl = |name: &str| std::fs::read(root().join("tests/cl").join(name)).expect("a CL file");
     let post = Program::builder().build().expect("the generic mill");
     let mut nc = Vec::new();
-    post.run(cl("holes.ncl.1").as_slice(), &mut nc).expect("a program");
+    post.stream(cl("holes.ncl.1").as_slice(), &mut nc).expect("a program");
     let program = filpost::verify::NcProgram { text: &nc, name: "holes.nc" };
     let error = post
         .start()

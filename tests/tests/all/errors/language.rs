@@ -62,7 +62,7 @@ fn e0305_call_depth() {
     let fil = "MA=MACRO\nXX=1\nTERMAC\nMB=MACRO\nCALL/MA\nTERMAC\nCALL/MB\nFINI\n";
     let limits = Limits { call_depth: 1, ..Limits::default() };
     let post = Program::builder().fil("t.fil", fil).limits(limits).build().expect("a post");
-    let error = post.run(PART.as_bytes(), &mut Vec::new()).expect_err("refused");
+    let error = post.stream(PART.as_bytes(), &mut Vec::new()).expect_err("refused");
     assert_eq!(names(&error), ["E0305"]);
     assert_eq!(error.diags()[0].spans[0].line, 5);
 }
@@ -75,7 +75,7 @@ fn e0317_host_function() {
         .function("LIFEF", 1, |_| Err::<f64, _>("the tool table is not there".into()))
         .build()
         .expect("a post");
-    let error = post.run(PART.as_bytes(), &mut Vec::new()).expect_err("refused");
+    let error = post.stream(PART.as_bytes(), &mut Vec::new()).expect_err("refused");
     assert_eq!(names(&error), ["E0317"]);
     assert!(error.to_string().contains("the tool table is not there"), "{error}");
 }

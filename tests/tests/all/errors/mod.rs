@@ -233,7 +233,7 @@ fn names(error: &Error) -> Vec<String> {
 /// The code of posting this CL text.
 fn posting(cl: &str) -> String {
     let post = Program::builder().build().expect("the generic mill");
-    let error = post.run(cl.as_bytes(), &mut Vec::new()).expect_err("refused");
+    let error = post.stream(cl.as_bytes(), &mut Vec::new()).expect_err("refused");
     names(&error).remove(0)
 }
 

@@ -12,7 +12,8 @@ fn e0711_cancelled() {
     let token = CancelToken::new();
     token.cancel();
     let post = Program::builder().build().expect("the generic mill");
-    let error = post.start().cancel(&token).run(PART.as_bytes(), Vec::new()).expect_err("refused");
+    let error =
+        post.start().cancel(&token).stream(PART.as_bytes(), Vec::new()).expect_err("refused");
     assert_eq!(names(&error), ["E0711"]);
 }
 
@@ -20,7 +21,7 @@ fn e0711_cancelled() {
 fn e0712_record_from_memory() {
     let post = Program::builder().build().expect("the generic mill");
     let record = fil_cl::Record::goto([f64::NAN; 3], None);
-    let error = post.run_records(post.vocabulary(), [record], Vec::new()).expect_err("refused");
+    let error = post.stream_records(post.vocabulary(), [record], Vec::new()).expect_err("refused");
     assert_eq!(names(&error), ["E0712"]);
 }
 
@@ -34,7 +35,7 @@ fn e0401_reading_fails() {
     }
     let post = Program::builder().build().expect("the generic mill");
     let input = Cursor::new("RAPID\n").chain(Failing);
-    let error = post.run(input, &mut Vec::new()).expect_err("refused");
+    let error = post.stream(input, &mut Vec::new()).expect_err("refused");
     assert_eq!(names(&error), ["E0401"]);
 }
 
@@ -48,9 +49,9 @@ fn e0409_stream_goes_back() {
     let fil = "NN=0\nCIMFIL/ON,COOLNT\nNN=NN+1\nIF(NN.EQ.1)DMY=POSTF(15)\nCIMFIL/OFF\nFINI\n";
     let cl = "RAPID\nCOOLNT / ON\nFINI\n";
     let post = Program::builder().fil("t.fil", fil).build().expect("a post");
-    let error = post.run(cl.as_bytes(), &mut Vec::new()).expect_err("refused");
+    let error = post.stream(cl.as_bytes(), &mut Vec::new()).expect_err("refused");
     assert_eq!(names(&error), ["E0409"]);
-    assert!(post.run_seekable(Cursor::new(cl), &mut Vec::new()).is_ok());
+    assert!(post.stream_seekable(Cursor::new(cl), &mut Vec::new()).is_ok());
 }
 
 #[test]
@@ -59,7 +60,7 @@ fn a_section_that_always_goes_back_is_stopped() {
     let limits = Limits { fuel: 10_000, ..Limits::default() };
     let post = Program::builder().fil("t.fil", fil).limits(limits).build().expect("a post");
     let cl = Cursor::new("RAPID\nCOOLNT / ON\nFINI\n");
-    let error = post.run_seekable(cl, &mut Vec::new()).expect_err("refused");
+    let error = post.stream_seekable(cl, &mut Vec::new()).expect_err("refused");
     assert_eq!(names(&error), ["E0304"]);
 }
 
@@ -113,7 +114,7 @@ fn e0714_machin_names_no_post() {
 #[test]
 fn e0715_units_contradict() {
     let given = |program: &Program, unit, cl: &str| {
-        program.start().units(unit).run(cl.as_bytes(), Vec::new()).map_err(|error| names(&error))
+        program.start().units(unit).stream(cl.as_bytes(), Vec::new()).map_err(|error| names(&error))
     };
     let mill = Program::builder().build().expect("the generic mill");
     let part = PART.replace("UNITS / MM\n", "");
@@ -134,7 +135,7 @@ fn e0716_changed_as_written() {
         let cl =
             "PAINT/PATH\nUNITS/MM\nLOAD/TOOL,1\nSPINDL/RPM,900,CLW\nFEDRAT/MMPM,250.\nGOTO/1,2,3\n";
         let mut nc = Vec::new();
-        let ran = post.start().reading(reading).run(cl.as_bytes(), &mut nc);
+        let ran = post.start().cl_options(reading).stream(cl.as_bytes(), &mut nc);
         ran.map(|_| String::from_utf8(nc).expect("ASCII")).map_err(|error| names(&error))
     };
     let changed = "DMY=POSTF(8,5,POSTF(7,5)*0.8)\nDMY=POSTF(13)\n";
@@ -154,7 +155,11 @@ fn w0757_choice_against_the_signs() {
     let post = |dialect| {
         let options = filpost::cl::Options { dialect, ..Default::default() };
         let mut nc = Vec::new();
-        mill.start().reading(options).run(text.as_bytes(), &mut nc).expect("it is posted").warnings
+        mill.start()
+            .cl_options(options)
+            .stream(text.as_bytes(), &mut nc)
+            .expect("it is posted")
+            .warnings
     };
     let chosen = post(Some(filpost::cl::ClDialect::Creo));
     let codes: Vec<String> = chosen.iter().map(|diag| diag.code.name()).collect();

@@ -206,7 +206,7 @@ fn case(folder: &Path, posts: &Posts) -> Result<Record, Why> {
 
 fn ready(cl: &ClFile, program: Result<Program, Error>) -> Result<Record, Why> {
     let (program, text) = (program?, fs::read(&cl.path).map_err(|_| Why::Input)?);
-    let start = || program.start().reading(cl.reading).units(cl.unit);
+    let start = || program.start().cl_options(cl.reading).units(cl.unit);
     Ok(posted(&program, start, (&text, CL_NAME)))
 }
 

@@ -49,7 +49,7 @@ pub fn posted<'o>(
     (cl, cl_name): (&[u8], &str),
 ) -> Record {
     let mut nc = Vec::new();
-    match start().run_seekable(Cursor::new(cl), &mut nc) {
+    match start().stream_seekable(Cursor::new(cl), &mut nc) {
         Ok(report) => Record {
             status: Status::Posted,
             nc: hash(&nc),
@@ -141,7 +141,7 @@ mod tests {
         let program = Program::builder().generic("fanuc-mill").build().unwrap();
         let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
         let mut nc = Vec::new();
-        program.run(cl.as_bytes(), &mut nc).unwrap();
+        program.stream(cl.as_bytes(), &mut nc).unwrap();
         let wrong = String::from_utf8(nc).unwrap().replace("X1.", "X9.");
         let found = found(program.start(), cl.as_bytes(), wrong.as_bytes(), "CL");
         assert!(found.iter().any(|one| one.ends_with(":4")), "{found:?}");

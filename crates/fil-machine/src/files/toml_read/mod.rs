@@ -29,6 +29,7 @@ use crate::commons::{Commons, Kind};
 use crate::errors::MachineCode;
 use crate::locations::{self as loc, Location, default_commons};
 use crate::post_options::PostOptions;
+use crate::renamed;
 use crate::stored;
 use crate::user_blocks::{self, MAX_BLOCKS};
 
@@ -230,7 +231,7 @@ struct TomlReader<'a> {
     errors: Vec<(usize, Diag)>,
     /// All settings that were said.
     said: Vec<Said>,
-    /// Imported values whose meaning is not known.
+    /// Warnings: imported values whose meaning is not known, old keys.
     doubtful: Vec<Diag>,
     /// Letters that are named, with their tape position and where that is said.
     named: Vec<(u8, u32, Range<usize>)>,
@@ -312,6 +313,11 @@ impl<'a> TomlReader<'a> {
         key: Range<usize>,
         value: &Spanned<DeValue>,
     ) -> Result<()> {
+        if let Some(new) = renamed::key(name) {
+            let warning = self.at(key.clone(), renamed::warning(name, new));
+            self.doubtful.push(*warning);
+            return self.setting(commons, new, key, value);
+        }
         if let Some((_, list)) = user_blocks::LISTS.iter().find(|(key, _)| *key == name) {
             list.store(commons, &self.texts(value, MAX_BLOCKS.into())?);
             return Ok(());

@@ -198,3 +198,22 @@ fn a_single_setting_takes_numbers_and_letters() {
     assert_eq!(commons.read(loc::CYCLE_STEP_ADDRESS), Some(Letter::of(b'Q')));
     assert!(apply_setting(&mut commons, "rapid.split=Q").is_err());
 }
+
+#[test]
+fn an_old_key_goes_on_to_work_and_warns() {
+    for (old, new) in crate::renamed::KEYS {
+        let row = loc::Location::named(new).expect("the new key is one");
+        assert_eq!(loc::Location::named(old), Some(row));
+        assert!(loc::TABLE.iter().all(|row| row.name != *old), "{old} is another setting");
+        assert_eq!(crate::renamed::key(new), None, "{old} must name the last key");
+    }
+    let (commons, warnings) = read_toml("m.toml", "[dwell]\nupm_min = 0.5").unwrap();
+    assert_eq!(commons.dbl_opt(loc::DWELL_SECONDS_MIN), Some(0.5));
+    let said: Vec<String> = warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(said, ["W0653 m.toml:2:1: `dwell.upm_min` is now `dwell.seconds_min`"]);
+    assert!(crate::files::write_toml(&commons).contains("seconds_min"));
+    let (_, warnings) = read_toml("m.toml", "[dwell]\nseconds_min = 0.5").unwrap();
+    assert!(warnings.is_empty());
+    let both = "[dwell]\nupm_min = 0.5\nseconds_min = 0.6";
+    assert_eq!(read_toml("m.toml", both).unwrap_err()[0].code.name(), "E0607");
+}

@@ -74,8 +74,8 @@ impl Settings<'_> {
 
     /// A dwell within the machine's range, seconds.
     pub fn dwell_within(&self, seconds: f64) -> f64 {
-        let low = self.commons.dbl_opt(loc::DWELL_UPM_MIN).unwrap_or(0.0);
-        let high = self.commons.dbl_opt(loc::DWELL_UPM_MAX).filter(|max| *max > 0.0);
+        let low = self.commons.dbl_opt(loc::DWELL_SECONDS_MIN).unwrap_or(0.0);
+        let high = self.commons.dbl_opt(loc::DWELL_SECONDS_MAX).filter(|max| *max > 0.0);
         seconds.max(low).min(high.unwrap_or(f64::MAX))
     }
 }

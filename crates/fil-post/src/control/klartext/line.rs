@@ -39,8 +39,8 @@ pub fn put_more(control: &mut Control, text: &str, cause: Cause) -> Result<()> {
 /// # Errors
 /// Longer than the control waits.
 pub fn seconds(control: &mut Control, asked: f64) -> Result<String> {
-    let low = control.commons.dbl_opt(loc::DWELL_UPM_MIN).unwrap_or(0.0);
-    let high = control.commons.dbl_opt(loc::DWELL_UPM_MAX).filter(|max| *max > 0.0);
+    let low = control.commons.dbl_opt(loc::DWELL_SECONDS_MIN).unwrap_or(0.0);
+    let high = control.commons.dbl_opt(loc::DWELL_SECONDS_MAX).filter(|max| *max > 0.0);
     let within = asked.max(low).min(high.unwrap_or(f64::MAX));
     if within != asked {
         control.warnings.add(PostCode::Clamped, format!("dwell {asked} became {within}"));

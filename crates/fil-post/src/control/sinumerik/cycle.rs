@@ -318,8 +318,8 @@ fn seconds(control: &mut Control, asked: f64) -> Result<String> {
     if asked <= 0.0 {
         return Ok("0".to_string());
     }
-    let low = control.commons.dbl_opt(loc::DWELL_UPM_MIN).unwrap_or(0.0);
-    let high = control.commons.dbl_opt(loc::DWELL_UPM_MAX).filter(|max| *max > 0.0);
+    let low = control.commons.dbl_opt(loc::DWELL_SECONDS_MIN).unwrap_or(0.0);
+    let high = control.commons.dbl_opt(loc::DWELL_SECONDS_MAX).filter(|max| *max > 0.0);
     let within = asked.max(low).min(high.unwrap_or(f64::MAX));
     if within != asked {
         control.warnings.add(PostCode::Clamped, format!("dwell {asked} became {within}"));

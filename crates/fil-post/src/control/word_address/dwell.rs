@@ -119,7 +119,8 @@ fn waits_turns(control: &Control) -> bool {
 /// are), brought within its range.
 fn in_seconds(control: &mut Control, seconds: f64) -> f64 {
     let factor = control.commons.dbl_opt(loc::DWELL_UPM_FACTOR).filter(|factor| *factor > 0.0);
-    within(control, seconds, (loc::DWELL_UPM_MIN, loc::DWELL_UPM_MAX)) * factor.unwrap_or(1.0)
+    within(control, seconds, (loc::DWELL_SECONDS_MIN, loc::DWELL_SECONDS_MAX))
+        * factor.unwrap_or(1.0)
 }
 
 /// Turns of the spindle as the seconds that they take.

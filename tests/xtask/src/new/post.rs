@@ -1,0 +1,60 @@
+//! `cargo xtask new-post`.
+
+use super::tree::{Tree, with_line};
+
+/// Write the skeleton of a ready post
+#[derive(clap::Args)]
+pub struct Args {
+    /// Its name, such as haas-mill
+    pub name: String,
+    /// The ready post that it begins from
+    #[arg(long, default_value = "fanuc-mill")]
+    pub base: String,
+}
+
+/// Writes the files.
+///
+/// # Errors
+/// A name with other signs than small letters, digits and hyphens; a post that is there.
+pub fn write(tree: &mut Tree, args: &Args) -> Result<String, String> {
+    let Args { name, base } = args;
+    let is_plain = |sign: char| sign.is_ascii_lowercase() || sign.is_ascii_digit() || sign == '-';
+    if name.is_empty() || !name.chars().all(is_plain) {
+        return Err(format!("`{name}`: a name has small letters, digits and hyphens"));
+    }
+    if filpost::ready::find(base).is_none() {
+        return Err(format!("there is no ready post {base}"));
+    }
+    let folder = format!("fil-scripts/posts/{name}");
+    tree.create(
+        &format!("{folder}/machine.toml"),
+        &format!("name = \"{name}\"\nbase = \"{base}\"\n\n# What differs from {base}, each with its reason.\n"),
+    )?;
+    tree.create(&format!("{folder}/README.md"), &readme(name, base))?;
+    let row = format!("    \"{name}\",");
+    tree.change("fil-scripts/posts.rs", |text| with_line(text, "ready![", "    \"", &row))?;
+    let row = format!("| `{name}` | which machines and controls |");
+    tree.change("docs/machine.md", |text| with_line(text, "| `brother-mill` |", "| `", &row))?;
+    let case = format!("corpus/posts/{name}/two-tools");
+    tree.create(
+        &format!("{case}/case.toml"),
+        &format!("cl = \"../../cl/mill-two-tools.ncl\"\nready = \"{name}\"\nexpect = \"part.nc\"\norigin = \"ours\"\n"),
+    )?;
+    Ok(format!(
+        "{}\nTo do:\n\
+         1. {folder}/machine.toml: the settings (docs/reference/settings.md), each with its reason.\n\
+         2. {folder}/README.md: what is assumed of the control, by which manual, and what is refused.\n\
+         3. docs/machine.md: the machines in ten words.\n\
+         4. The program: FILPOST_UPDATE=1 cargo test -p filpost-tests --test files posts/{name}; read it as the \
+         operator would.\n\
+         5. The judge: cargo test -p filpost-tests --test all verify::",
+        tree.told()
+    ))
+}
+
+fn readme(name: &str, base: &str) -> String {
+    format!(
+        "# {name}\n\nFor which machines and controls; by which manual.\n\nIt begins from `{base}`.\n\n## Assumed\n\n\
+         - What the control must have set.\n\n## Refused\n\n- What this post does not do.\n"
+    )
+}
