@@ -43,7 +43,6 @@ impl Fields {
     }
 
     /// True or false; false where it is left out.
-    #[cfg(feature = "post")]
     pub fn flag(&mut self, key: &str) -> Result<bool, Misuse> {
         match self.take(key) {
             None => Ok(false),
@@ -53,7 +52,6 @@ impl Fields {
     }
 
     /// A number from 0, where there is one.
-    #[cfg(feature = "post")]
     pub fn number(&mut self, key: &str) -> Result<Option<u64>, Misuse> {
         let Some(value) = self.take(key) else { return Ok(None) };
         value.as_u64().map(Some).ok_or_else(|| wrong(key, "a whole number", &value))

@@ -20,8 +20,13 @@ mod diagnostics;
 mod editor;
 mod fields;
 #[cfg(feature = "post")]
+mod form;
 mod job;
+#[cfg(feature = "plot")]
+mod judge;
 mod machine;
+#[cfg(feature = "plot")]
+mod motions;
 #[cfg(feature = "plot")]
 mod plot;
 #[cfg(feature = "post")]
@@ -99,6 +104,18 @@ fn read(request: Value) -> Result<Value, Misuse> {
         "fixes" => Edited::read(fields)?.fixes(),
         #[cfg(feature = "post")]
         "new" => setup::new_post(fields)?,
+        #[cfg(feature = "post")]
+        "form" => form::form(fields)?,
+        #[cfg(feature = "post")]
+        "set" => form::set(fields)?,
+        #[cfg(feature = "post")]
+        "case" => form::case(fields)?,
+        #[cfg(feature = "plot")]
+        "verify" => judge::verify(fields)?,
+        #[cfg(feature = "plot")]
+        "compare" => judge::compare(fields)?,
+        #[cfg(feature = "plot")]
+        "motions" => motions::motions(fields)?,
         #[cfg(feature = "post")]
         "import" => setup::import(fields)?,
         #[cfg(feature = "post")]

@@ -8,6 +8,7 @@ import { el } from "./dom.js";
 import { languageOf } from "./languages.js";
 
 const mark = StateEffect.define();
+const freshen = StateEffect.define();
 
 /** A change that did not come from the editor's user. */
 const fromOutside = Annotation.define();
@@ -27,6 +28,28 @@ const marked = StateField.define({
   },
   provide: (field) => EditorView.decorations.from(field),
 });
+
+/** Lines that the last change has made. */
+const fresh = StateField.define({
+  create: () => Decoration.none,
+  update(lines, transaction) {
+    for (const effect of transaction.effects) {
+      if (effect.is(freshen)) {
+        const line = Decoration.line({ class: "fresh" });
+        lines = Decoration.set(effect.value.map((at) => line.range(at)));
+      }
+    }
+    return lines;
+  },
+  provide: (field) => EditorView.decorations.from(field),
+});
+
+/** Shows which lines are new, counted from 1. */
+export function showFresh(view, lines) {
+  const { doc } = view.state;
+  const starts = lines.filter((line) => line <= doc.lines).map((line) => doc.line(line).from);
+  view.dispatch({ effects: freshen.of(starts) });
+}
 
 /** The position of a line, counted from 1, and of UTF-16 units in it. */
 function place(doc, line, units = 0) {
@@ -168,6 +191,7 @@ export function reader(parent, { label, kind, origin, pointed }) {
     basicSetup,
     languageOf(kind),
     marked,
+    fresh,
     tips,
     cursor(pointed),
     EditorView.contentAttributes.of({ "aria-label": label }),

@@ -1,7 +1,9 @@
 // All that is wrong or doubtful: of posting, of the texts, of the check against the CL file.
 import { debounced, signal } from "./dom.js";
 import { kindOf } from "./files.js";
-import { MACHINE } from "./posting.js";
+
+/** Longest program that is checked by itself, characters. */
+const MOST_CHECKED = 3_000_000;
 
 const ORDER = { error: 0, warning: 1, advice: 2, info: 2, note: 3 };
 
@@ -13,15 +15,45 @@ export class Findings {
     this.posted = [];
     this.ofTexts = [];
     this.checked = [];
+    /** What the check against the CL file came to, in words. */
+    this.verdict = "";
     this.changed = signal();
+    const check = debounced(400, () => this.check());
     const later = debounced(300, () => this.judge());
     files.changed.on((name, by) => by !== "save" && kindOf(name) !== "text" && later());
     files.listed.on(later);
     posting.done.on(() => {
       this.posted = postedFindings(posting.answer);
       this.checked = [];
+      this.verdict = "";
       this.changed.tell();
+      check();
     });
+  }
+
+  /** Checks the program against the CL file, with the reader that shares no code with the post. */
+  async check() {
+    const request = this.posting.request();
+    const nc = this.posting.answer?.nc;
+    if (!request || nc === undefined || nc.length > MOST_CHECKED) return;
+    // Without FIL the CL file says what must be done: what a script adds is found too.
+    const { fil: _, ...asked } = request;
+    const answer = await this.ask({ ...asked, do: "verify", nc }).catch((error) => ({ errors: [{ message: error.message }] }));
+    if (this.posting.answer?.nc !== nc) return;
+    if (!answer.verdict) {
+      this.verdict = `The program can't be checked: ${(answer.errors?.[0]?.message ?? answer.misuse)}`;
+    } else {
+      this.checked = answer.findings.map((found) => ({
+        source: "verify", severity: "warning", code: "verify", message: found.message, hint: "", fixes: [],
+        ncLine: found.nc_line, file: this.posting.part, line: found.cl_line,
+      }));
+      this.verdict = {
+        agrees: `Checked against the CL file: all ${answer.motions.asked} motions agree.`,
+        partly: "Checked against the CL file: what could be compared agrees, not all could.",
+        differs: `Checked against the CL file without its scripts: ${answer.findings.length + answer.more} findings.`,
+      }[answer.verdict];
+    }
+    this.changed.tell();
   }
 
   /** Asks what is wrong in the machine and in the scripts, and how it is repaired. */
@@ -50,17 +82,11 @@ export class Findings {
     });
   }
 
-  /** What `verify` found, for the program that is shown. */
-  setChecked(findings) {
-    this.checked = findings;
-    this.changed.tell();
-  }
-
   /** All findings, errors first, each place and code once. */
   all() {
     const seen = new Set();
     const once = (finding) => {
-      const key = `${finding.code} ${finding.file} ${finding.line} ${finding.code ? "" : finding.message}`;
+      const key = `${finding.code} ${finding.file} ${finding.line} ${finding.source === "verify" || !finding.code ? finding.message : ""}`;
       return !seen.has(key) && seen.add(key);
     };
     // Those of the texts come first, as they bring repairs.
@@ -104,5 +130,3 @@ function postedFindings(answer) {
     };
   });
 }
-
-export { MACHINE };

@@ -1,19 +1,28 @@
 // The page: the parts are put together here.
+import { zipSync, strToU8 } from "fflate";
+import { moduleBackend } from "./backends/module.js";
 import { serverBackend } from "./backends/server.js";
 import { askText, confirm, tell } from "./dialogs.js";
 import { by, counted, el, tabs } from "./dom.js";
 import { Files, isCl } from "./files.js";
 import { Findings } from "./findings.js";
+import { Cases } from "./cases.js";
 import { showView, startLayout, startViews } from "./layout.js";
+import { startCasebook } from "./panes/casebook.js";
+import { Compare } from "./panes/compare.js";
 import { Editing } from "./panes/editing.js";
+import { Form } from "./panes/form.js";
 import { startJudging } from "./panes/judging.js";
 import { PathPane } from "./panes/path.js";
 import { Program } from "./panes/program.js";
 import { startTree } from "./panes/tree.js";
 import { MACHINE, Posting } from "./posting.js";
+import { pack, unpack } from "./share.js";
 import { chooseFiles, readAll, startPost } from "./start.js";
 
-const backend = serverBackend((is) => (by("lost").hidden = !is));
+/** What the playground has beside the page: the module, the examples, the pages of the post words. */
+const parts = globalThis.filpost;
+const backend = parts?.bytes ? moduleBackend(parts) : serverBackend((is) => (by("lost").hidden = !is));
 const { ask } = backend;
 const files = new Files(backend);
 const posting = new Posting(files, ask);
@@ -22,7 +31,14 @@ const editing = new Editing(files, posting, ask);
 const program = new Program(files, posting, { open });
 const main = document.querySelector("main");
 const path = new PathPane(files, posting, ask);
+const form = new Form(files, posting, ask, { open });
+const cases = new Cases(files, posting, ask);
+posting.recipeOf = (part) => cases.recipe(part);
+const compare = new Compare(files, posting, cases, ask, { openNc });
 const tree = startTree(files, { open: (name) => open(name), remove });
+
+/** The pane of the form among the open files. */
+const FORM = "the machine as a form";
 
 async function open(name, line = null, units = 0) {
   try {
@@ -31,6 +47,13 @@ async function open(name, line = null, units = 0) {
   } catch (error) {
     tell("Not opened", error.message);
   }
+}
+
+/** Shows a line of the program. */
+function openNc(line) {
+  programTabs.choose("tab-nc");
+  program.goTo(line);
+  showView("program");
 }
 
 async function remove(name) {
@@ -134,35 +157,114 @@ window.addEventListener("beforeunload", (event) => {
 });
 
 async function begin() {
-  if (!(await startPost({ files, ask }))) return;
+  if (!(await startPost({ files, ask, examples: parts?.examples, takeExample }))) return;
   showParts();
   await posting.run();
-  open(MACHINE);
+  open(FORM);
+}
+
+/** Files of a case of the corpus, or of a link, in place of those that are there. */
+async function takeState({ files: list, part }) {
+  backend.put(list);
+  posting.part = null;
+  await files.load();
+  await choosePart(part ?? files.names().find(isCl));
+  findings.judge();
+  form.load();
+}
+
+async function takeExample({ files: list, part, open: shown }) {
+  await takeState({ files: list, part });
+  open(shown ?? part);
+  return false;
+}
+
+/** All files with their texts. */
+async function allTexts() {
+  const names = files.names();
+  const texts = await Promise.all(names.map((name) => files.read(name)));
+  return names.map((name, at) => ({ name, text: texts[at] }));
+}
+
+async function download() {
+  const list = await allTexts();
+  const nc = posting.answer?.nc;
+  const all = nc === undefined ? list : [...list, { name: "program.nc", text: nc }];
+  const zip = zipSync(Object.fromEntries(all.map(({ name, text }) => [name, strToU8(text)])));
+  const address = URL.createObjectURL(new Blob([zip], { type: "application/zip" }));
+  el("a", { href: address, download: "post.zip" }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+async function share() {
+  const packed = await pack({ files: await allTexts(), part: posting.part });
+  location.hash = packed;
+  const copied = await navigator.clipboard?.writeText(location.href).then(() => true, () => false);
+  tell("Shared", `All files are in the address of this page now${copied ? ", which was copied" : ""}: ${location.href.length.toLocaleString("en")} characters. Anyone who opens it sees the same.`);
 }
 
 startLayout();
 startViews();
-tabs(by("program-tabs"));
+const programTabs = tabs(by("program-tabs"), (id) => id === "tab-compare" && compare.run());
 tabs(by("judge-tabs"), (id) => {
   main.classList.toggle("path", id === "tab-path");
   if (id === "tab-path") path.open();
 });
-startJudging(findings, {
-  open,
-  openNc: (line) => {
-    program.goTo(line);
+startJudging(findings, { open, openNc });
+startCasebook(cases, files, posting, {
+  choosePart, save,
+  compare: () => {
+    programTabs.choose("tab-compare");
     showView("program");
   },
 });
+editing.addPane(FORM, "Machine", form.box);
+
+/** For the tests of the page: the text of a file, and a page without files. */
+function openForTests() {
+  parts.text = (name) => files.text(name);
+  parts.program = () => posting.answer?.nc ?? "";
+  parts.empty = async () => {
+    backend.put([]);
+    posting.part = null;
+    await files.load();
+    await posting.run();
+    begin();
+  };
+}
+
+/** The page without a server: what a link brings, else the first example. */
+async function runAlone() {
+  by("share").hidden = by("download").hidden = false;
+  by("save").hidden = true;
+  by("share").addEventListener("click", share);
+  by("download").addEventListener("click", download);
+  by("place").textContent = "playground";
+  document.title = "filpost playground";
+  openForTests();
+  const packed = location.hash.slice(1);
+  const state = packed ? await unpack(packed) : null;
+  if (state) {
+    await takeState(state);
+    open(FORM);
+  } else if (packed) {
+    await takeExample(parts.examples[0]);
+    tell("The link can't be read", "A part of the address is missing. This is the first example instead.");
+  } else {
+    await takeExample(parts.examples[0]);
+  }
+}
 
 async function run() {
+  if (!backend.keeps) return runAlone();
   await files.load().catch((error) => tell("The folder can't be read", error.message));
   by("place").textContent = files.folder;
   document.title = `${files.folder} – filpost studio`;
   findings.judge();
   await posting.run();
-  if (files.has(MACHINE)) await open(files.has("post.fil") ? "post.fil" : MACHINE);
-  else begin();
+  open(FORM);
+  form.load();
+  if (!files.has(MACHINE)) begin();
 }
 
 run();

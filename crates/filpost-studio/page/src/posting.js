@@ -16,6 +16,10 @@ export class Posting {
     this.ask = ask;
     /** Name of the CL file. */
     this.part = null;
+    /** What the case of the part says of posting: `fil`, and keys of a request; null where it has no case. */
+    this.recipe = null;
+    /** Finds the recipe of a part. */
+    this.recipeOf = async () => null;
     this.answer = null;
     this.lines = [];
     this.isRunning = false;
@@ -29,7 +33,7 @@ export class Posting {
 
   /** True when the program depends on a file. */
   reads(name) {
-    return name === MACHINE || name === this.part || (isFil(name) && !name.startsWith("cases/"));
+    return name === MACHINE || name === this.part || name.endsWith("case.toml") || (isFil(name) && !name.startsWith("cases/"));
   }
 
   isLarge() {
@@ -41,11 +45,12 @@ export class Posting {
     return this.run();
   }
 
-  /** The FIL files of the post: post.fil, or all in the folder itself; and what they may include. */
+  /** The FIL files of the post: those of the part's case, or post.fil, or all in the folder itself; and what they may include. */
   scripts() {
     const known = this.files.names().filter((name) => isFil(name) && this.files.text(name) !== null);
     const own = known.filter((name) => !name.includes("/") && /\.(fil|f\d\d)$/i.test(name));
-    const fil = own.includes("post.fil") ? ["post.fil"] : own;
+    const ofCase = this.recipe?.fil?.filter((name) => known.includes(name));
+    const fil = ofCase ?? (own.includes("post.fil") ? ["post.fil"] : own);
     const file = (name) => ({ name, text: this.files.text(name) });
     const includes = known.filter((name) => !fil.includes(name) && !name.startsWith("cases/"));
     return { fil: fil.map(file), includes: includes.map(file) };
@@ -61,13 +66,15 @@ export class Posting {
     const machine = this.machine();
     const cl = this.part && this.files.text(this.part);
     if (!machine || cl === null || cl === undefined) return null;
-    return { do: "post", machine, cl, cl_name: this.part, ...this.scripts() };
+    return { do: "post", machine, cl, cl_name: this.part, ...this.scripts(), ...this.recipe?.keys };
   }
 
   async run() {
     if (this.part && this.files.has(this.part)) await this.files.read(this.part);
-    const request = this.request();
     const number = ++this.asked;
+    this.recipe = this.part ? await this.recipeOf(this.part) : null;
+    const request = this.request();
+    if (number !== this.asked) return;
     if (!request) return this.take(null, 0);
     this.isRunning = true;
     const begun = performance.now();

@@ -1,11 +1,11 @@
-// The state of the page in its address: JSON, deflated, in base64 of addresses.
+// The files in the address: JSON, deflated, in base64 of addresses.
 
 async function through(stream, bytes) {
   const piped = new Blob([bytes]).stream().pipeThrough(stream);
   return new Uint8Array(await new Response(piped).arrayBuffer());
 }
 
-/** A state as the part of an address behind `#`. */
+/** Files and the part that is shown as the part of an address behind `#`. */
 export async function pack(state) {
   const text = new TextEncoder().encode(JSON.stringify(state));
   const bytes = await through(new CompressionStream("deflate-raw"), text);
@@ -14,7 +14,7 @@ export async function pack(state) {
   return btoa(letters).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 }
 
-/** The state of an address; null where the address has none that can be read. */
+/** The state of an address, `{files, part}`; null where the address has none that can be read. */
 export async function unpack(packed) {
   try {
     const letters = atob(packed.replaceAll("-", "+").replaceAll("_", "/"));
@@ -27,12 +27,10 @@ export async function unpack(packed) {
   }
 }
 
-const isFile = (file) => typeof file?.name === "string" && typeof file?.text === "string";
+const isFile = (file) => typeof file?.name === "string" && file.name !== "" && typeof file?.text === "string";
 
 /** A link comes from anywhere: what has not the shape of a state is not taken. */
 function isState(state) {
-  const { cl, machine, fil, includes = [], options } = state ?? {};
-  const plain = typeof options === "object" && options !== null && !Array.isArray(options);
-  const files = (list) => Array.isArray(list) && list.every(isFile);
-  return isFile(cl) && isFile(machine) && files(fil) && files(includes) && plain;
+  const { files, part } = state ?? {};
+  return Array.isArray(files) && files.every(isFile) && (part === null || typeof part === "string");
 }

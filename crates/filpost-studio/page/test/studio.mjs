@@ -1,11 +1,19 @@
 // What a person does in the studio; the same over each back end.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
 const said = (page, text) => page.locator("#status", { hasText: text }).waitFor({ timeout: 15_000 });
 const nc = (page) => page.locator("#nc .cm-content").innerText();
 
-/** Begins a post from a ready one, in an empty folder. */
+/** Begins a post from a ready one. An empty folder asks by itself; the playground has an example. */
 async function begin(page, ready) {
+  if ((await page.locator("#place").innerText()) === "playground") {
+    await said(page, /blocks|Refused/);
+    await page.evaluate(() => globalThis.filpost.empty());
+  }
   await page.locator(".card", { has: page.getByText(ready, { exact: true }) }).click();
   await said(page, "blocks");
 }
@@ -17,6 +25,23 @@ async function typeAtTop(page, text) {
   await page.keyboard.insertText(text);
 }
 
+/** The row of a setting in the form. */
+const setting = (page, key) => page.locator(`[id="set-${key}"]`);
+
+/** Waits until the program has a text. */
+async function shows(page, text) {
+  await page.locator("#nc .cm-content", { hasText: text }).waitFor({ timeout: 15_000 });
+}
+
+/** What axe-core finds in a page. */
+async function faults(page) {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => globalThis.axe.run(document, {
+    runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"],
+  }));
+  return violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map((node) => node.html.slice(0, 160)).join(" | ")}`);
+}
+
 const openFile = (page, name) => page.locator(`#tree .name[title="${name}"]`).click();
 
 export const tests = {
@@ -26,9 +51,9 @@ export const tests = {
     await begin(page, "haas-mill");
     assert.match(await nc(page), /G43 Z50\. H1/);
     await page.keyboard.press("Control+s");
-    await page.locator("#save:disabled").waitFor();
-    assert.match(read("machine.toml"), /base = "haas-mill"/);
-    assert.match(read("cases/first/expected.nc"), /M30/);
+    await page.waitForFunction(() => !document.querySelector("#tree .dirty"));
+    assert.match(await read("machine.toml"), /base = "haas-mill"/);
+    assert.match(await read("cases/first/expected.nc"), /M30/);
     await picture("saved");
     await close();
   },
@@ -67,6 +92,147 @@ export const tests = {
     await said(page, "blocks");
     assert.equal(await nc(page), before);
     await page.locator(".cm-content", { hasText: "XX = SQRTF(4)" }).waitFor();
+    await close();
+  },
+
+  async "five wishes in the form change machine.toml and the program"(studio) {
+    const { page, read, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    // Blocks numbered by five, a number of the program, none of the name, flood by M7, end by M2.
+    await setting(page, "seqno.increment").fill("5");
+    await setting(page, "seqno.increment").press("Enter");
+    await shows(page, "N15 ");
+    await page.locator("#cause", { hasText: "The last change" }).waitFor();
+    await picture("form");
+    await setting(page, "program.number").fill("4711");
+    await setting(page, "program.number").press("Enter");
+    await shows(page, "O4711");
+    await setting(page, "program.name_comment").selectOption("no");
+    await page.locator("#nc .cm-content", { hasText: "(100 FIRST)" }).waitFor({ state: "detached" });
+    await page.getByRole("searchbox", { name: "Find a setting" }).fill("coolant default");
+    await setting(page, "coolant.default_code").fill("7");
+    await setting(page, "coolant.default_code").press("Enter");
+    await shows(page, "M7");
+    await page.getByRole("searchbox", { name: "Find a setting" }).fill("coolant off");
+    await setting(page, "coolant.off_code").fill("109");
+    await setting(page, "coolant.off_code").press("Enter");
+    await shows(page, "M109");
+    await page.getByRole("searchbox", { name: "Find a setting" }).fill("");
+    await page.keyboard.press("Control+s");
+    await page.waitForFunction(() => !document.querySelector("#tree .dirty"));
+    const machine = await read("machine.toml");
+    for (const line of ["increment = 5", "number = 4711", "name_comment = false", "default_code = 7", "off_code = 109"]) {
+      assert.ok(machine.includes(line), `${line} is not in\n${machine}`);
+    }
+    // What is set here is marked, and can be taken back.
+    await page.locator(".setting.own", { hasText: "seqno.increment" }).getByRole("button").click();
+    await shows(page, "N10 ");
+    await page.locator("#open-tabs [aria-selected=true]", { hasText: "Machine" }).waitFor();
+    // A value that the setting can't have is said, and nothing changes.
+    await setting(page, "program.number").fill("many");
+    await setting(page, "program.number").press("Enter");
+    await page.locator(".problem:visible").waitFor();
+    await shows(page, "O4711");
+    await close();
+  },
+
+  async "an option of a post is chosen in the form"(studio) {
+    const { page, close } = await studio();
+    await begin(page, "haas-mill");
+    const before = await nc(page);
+    await setting(page, "options.style").selectOption("production");
+    await page.waitForFunction((old) => document.querySelector("#nc .cm-content").innerText !== old, before);
+    await openFile(page, "machine.toml");
+    await page.locator("#editors .editor:visible .cm-content", { hasText: 'style = "production"' }).waitFor();
+    await close();
+  },
+
+  async "a case is saved, and all cases are run"(studio) {
+    const { page, read, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    await page.click("#tab-cases");
+    await page.click("#save-case");
+    await page.locator("#dialog input").fill("second");
+    await page.keyboard.press("Enter");
+    await page.locator("#cases li", { hasText: "cases/second" }).waitFor();
+    await page.waitForFunction(() => !document.querySelector("#tree .dirty"));
+    assert.match(await read("cases/second/case.toml"), /machine = "\.\.\/\.\.\/machine\.toml"/);
+    assert.equal(await read("cases/second/expected.nc"), await read("cases/first/expected.nc"));
+    await page.click("#run-cases");
+    await page.locator("#cases-said", { hasText: "2 cases passed, 0 failed" }).waitFor();
+    await setting(page, "seqno.increment").fill("5");
+    await setting(page, "seqno.increment").press("Enter");
+    await shows(page, "N15 ");
+    await page.click("#run-cases");
+    await page.locator("#cases-said", { hasText: "0 cases passed, 2 failed" }).waitFor();
+    await page.locator("#cases .failed", { hasText: "is expected" }).first().getByRole("button", { name: "Compare" }).click();
+    await page.locator("#compare-said", { hasText: /differ|same/ }).waitFor();
+    await picture("cases");
+    await close();
+  },
+
+  async "a program is compared with a proven one in words"(studio) {
+    const { page, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    await openFile(page, "cases/first/part.ncl");
+    await page.locator("#editors .editor:visible .cm-line", { hasText: "GOTO / -10, 0, -1" }).click();
+    await page.keyboard.press("End");
+    await page.keyboard.press("Backspace");
+    await page.keyboard.type("3");
+    await said(page, "blocks");
+    await page.click("#tab-compare");
+    await page.locator("#differences li", { hasText: "deeper by 2" }).waitFor();
+    await picture("compare");
+    await page.locator("#differences .finding").first().click();
+    await page.locator("#panel-nc:visible").waitFor();
+    await close();
+  },
+
+  async "a program that does another thing than its CL file is found"(studio) {
+    const { page, close } = await studio();
+    await begin(page, "haas-mill");
+    await page.locator("#checked", { hasText: "motions agree" }).waitFor({ timeout: 15_000 });
+    await openFile(page, "post.fil");
+    await typeAtTop(page, "CIMFIL/ON,COOLNT\n  POSTN/OUT,G,1,X,99,F,500\n  DMY = POSTF(13)\nCIMFIL/OFF\n");
+    await shows(page, "X99.");
+    await page.locator("#findings li", { hasText: "verify" }).first().waitFor({ timeout: 15_000 });
+    await close();
+  },
+
+  async "keys, labels and contrast are as they should be"(studio) {
+    const { page, close } = await studio();
+    assert.deepEqual(await faults(page), [], "the dialog");
+    await begin(page, "haas-mill");
+    await page.locator(".setting").first().waitFor();
+    assert.deepEqual(await faults(page), [], "the form");
+    await openFile(page, "post.fil");
+    await page.click("#tab-cases");
+    await page.click("#tab-compare");
+    assert.deepEqual(await faults(page), [], "the editor");
+    // The panes are moved with the keys, and stay so.
+    const sash = page.locator("#sash-files");
+    await sash.focus();
+    const width = () => page.locator("#files").evaluate((pane) => pane.getBoundingClientRect().width);
+    const before = await width();
+    await page.keyboard.press("ArrowRight");
+    assert.equal(Math.round(await width() - before), 20);
+    await page.locator("#tab-compare").focus();
+    await page.keyboard.press("ArrowLeft");
+    await page.locator("#panel-nc:visible").waitFor();
+    await close();
+  },
+
+  async "on a phone one pane is shown at a time"(studio) {
+    const { page, picture, close } = await studio({ viewport: { width: 390, height: 780 } });
+    await begin(page, "haas-mill");
+    await page.locator(".setting").first().waitFor();
+    await picture("phone-form");
+    await page.locator("#views button", { hasText: "Program" }).click();
+    await page.locator("#nc:visible").waitFor();
+    await picture("phone-program");
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+    assert.equal(wide, false, "nothing is wider than the screen");
+    assert.deepEqual(await faults(page), []);
     await close();
   },
 

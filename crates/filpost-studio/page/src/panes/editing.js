@@ -42,8 +42,9 @@ export class Editing {
     box.hidden = true;
     const holder = el("span", { class: "tab", role: "presentation" }, tab);
     if (closes) {
+      // For the pointer alone: the key Delete closes the tab.
       holder.append(el("button", {
-        type: "button", class: "close", "aria-label": `Close ${title}`, title: "Close", tabIndex: -1,
+        type: "button", class: "close", "aria-hidden": "true", title: "Close (Delete)", tabIndex: -1,
         onclick: () => this.close(name),
       }, "×"));
     }
@@ -68,6 +69,7 @@ export class Editing {
     const { view, tab } = this.open.get(name);
     tab.scrollIntoView({ block: "nearest", inline: "nearest" });
     by("word").hidden = !view;
+    if (!view) by("word").replaceChildren();
     if (view) {
       // An editor that was hidden does not know its size.
       view.requestMeasure();
@@ -162,6 +164,11 @@ export class Editing {
   }
 
   key(event) {
+    if (event.key === "Delete" && this.open.get(this.current)?.view) {
+      this.close(this.current);
+      this.open.get(this.current)?.tab.focus();
+      return;
+    }
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (!step) return;
     const names = [...this.open.keys()];

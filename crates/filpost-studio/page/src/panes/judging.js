@@ -40,8 +40,9 @@ export function startJudging(findings, { open, openNc }) {
   function show() {
     const all = findings.all();
     list.replaceChildren(...all.map(item));
-    if (!all.length) list.append(el("li", { class: "quiet" }, "Nothing was found."));
+    if (!all.length && !findings.verdict) list.append(el("li", { class: "quiet" }, "Nothing was found."));
     tab.replaceChildren("Findings ", el("span", { class: "count" }, all.length ? String(all.length) : ""));
+    by("checked").textContent = findings.verdict;
     tab.classList.toggle("bad", all.some(({ severity }) => severity === "error"));
   }
 

@@ -1,6 +1,6 @@
 // The NC program, and what made the block that is pointed at.
-import { by, el, signal } from "../dom.js";
-import { goTo, markLines, reader, setText } from "../editors.js";
+import { by, counted, el, signal } from "../dom.js";
+import { goTo, markLines, reader, setText, showFresh } from "../editors.js";
 
 export class Program {
   constructor(files, posting, { open }) {
@@ -18,10 +18,24 @@ export class Program {
   }
 
   show() {
-    setText(this.view, this.posting.lines.join("\n"));
-    by("cause").replaceChildren(this.posting.answer?.nc
-      ? el("p", { class: "quiet" }, "Click a block to see the CL record and the FIL lines that made it.")
-      : "");
+    const { answer, part, lines } = this.posting;
+    markLines(this.view, [], false);
+    setText(this.view, lines.join("\n"));
+    if (!answer?.nc) {
+      showFresh(this.view, []);
+      by("cause").replaceChildren();
+      return;
+    }
+    // What a change touches is compared with the last program of the same part.
+    const before = this.last?.part === part ? this.last.lines : lines;
+    const { made, gone } = changedLines(before, lines);
+    if (made.length || gone) this.touched = { made, gone };
+    showFresh(this.view, this.last?.part === part ? this.touched?.made ?? [] : []);
+    if (this.last?.part !== part) this.touched = null;
+    this.last = { part, lines };
+    by("cause").replaceChildren(el("p", { class: "quiet" }, this.touched
+      ? `The last change: ${counted(this.touched.made.length, "line")} new or other (green)${this.touched.gone ? `, ${this.touched.gone} gone` : ""}.`
+      : "Click a block to see the CL record and the FIL lines that made it."));
   }
 
   /** The places that made a line: `[file, line]` of each. */
@@ -65,4 +79,24 @@ export class Program {
   markMadeBy(name, line) {
     markLines(this.view, this.posting.madeBy(name, line));
   }
+}
+
+/** Lines of a program that an earlier one lacks, by their places, and how many it has more. */
+export function changedLines(before, after) {
+  let from = 0;
+  const shorter = Math.min(before.length, after.length);
+  while (from < shorter && before[from] === after[from]) from += 1;
+  let end = 0;
+  while (end < shorter - from && before.at(-1 - end) === after.at(-1 - end)) end += 1;
+  const old = before.slice(from, before.length - end);
+  const left = new Map();
+  for (const line of old) left.set(line, (left.get(line) ?? 0) + 1);
+  const made = [];
+  for (let at = from; at < after.length - end; at++) {
+    const count = left.get(after[at]) ?? 0;
+    if (count) left.set(after[at], count - 1);
+    else made.push(at + 1);
+  }
+  const kept = after.length - end - from - made.length;
+  return { made, gone: Math.max(0, old.length - kept - made.length) };
 }

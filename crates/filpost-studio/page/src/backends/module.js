@@ -1,0 +1,103 @@
+// The module in the browser: files in memory, answers by WebAssembly in a worker.
+import workerText from "worker:./worker.js";
+
+/** Longest time a request may take, in milliseconds. */
+const PATIENCE = 20_000;
+
+/** What the second module answers; the first has all else. */
+const JUDGED = new Set(["plot", "verify", "compare", "motions"]);
+
+/** One module in a worker: requests, and a new worker where one takes too long. */
+class Asked {
+  constructor(wasm, words) {
+    this.wasm = wasm;
+    this.words = words;
+    this.waiting = new Map();
+    this.number = 0;
+    this.start();
+  }
+
+  start() {
+    // From a text, so that the page also works where it was opened from a disk.
+    const address = URL.createObjectURL(new Blob([workerText], { type: "text/javascript" }));
+    this.worker = new Worker(address);
+    this.worker.onmessage = ({ data }) => this.settle(data);
+    this.worker.postMessage({ wasm: this.wasm, words: this.words });
+  }
+
+  settle({ number, answer, failure }) {
+    const waiting = this.waiting.get(number);
+    if (!waiting) return;
+    this.waiting.delete(number);
+    clearTimeout(waiting.timer);
+    if (failure) waiting.reject(new Error(failure));
+    else waiting.resolve(answer);
+  }
+
+  ask(request) {
+    const number = ++this.number;
+    return new Promise((resolve, reject) => {
+      const timer = setTimeout(() => this.giveUp(), PATIENCE);
+      this.waiting.set(number, { resolve, reject, timer });
+      this.worker.postMessage({ number, request });
+    });
+  }
+
+  giveUp() {
+    this.worker.terminate();
+    const failure = `it took longer than ${PATIENCE / 1000} s and was stopped`;
+    for (const number of [...this.waiting.keys()]) this.settle({ number, failure });
+    this.start();
+  }
+}
+
+function loadScript(name) {
+  return new Promise((resolve, reject) => {
+    const script = document.createElement("script");
+    script.onload = resolve;
+    script.onerror = () => reject(new Error(`${name} can't be loaded`));
+    script.src = name;
+    document.head.append(script);
+  });
+}
+
+/** The back end of the page without a server; `parts` are the scripts beside it. */
+export function moduleBackend(parts) {
+  const first = new Asked(parts.bytes(), parts.words);
+  let second = null;
+  const judge = () => {
+    second ??= loadScript("filpost-plot.wasm.js").then(() => new Asked(parts.plotBytes())).catch((error) => {
+      second = null;
+      throw error;
+    });
+    return second;
+  };
+  const ask = async (request) => {
+    return JUDGED.has(request.do) ? (await judge()).ask(request) : first.ask(request);
+  };
+  const kept = new Map();
+  let stamps = 0;
+  return {
+    keeps: false,
+    ask,
+    list: async () => ({
+      folder: "playground", all: true,
+      files: [...kept].map(([name, { text, stamp }]) => ({ name, size: text.length, stamp })),
+    }),
+    read: async (name) => ({ ...kept.get(name), encoding: "UTF-8" }),
+    write: async (name, text) => {
+      const stamp = String(++stamps);
+      kept.set(name, { text, stamp });
+      return { stamp };
+    },
+    remove: async (name) => {
+      kept.delete(name);
+      return {};
+    },
+    /** Takes files as if they had been there. */
+    put: (files) => {
+      kept.clear();
+      for (const { name, text } of files) kept.set(name, { text, stamp: String(++stamps) });
+    },
+  };
+}

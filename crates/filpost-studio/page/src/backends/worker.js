@@ -1,0 +1,17 @@
+// Posts in a thread of its own, so that the page answers while a program is made.
+import { load } from "../../../../../docs/playground/filpost.js";
+
+let ask = null;
+
+self.onmessage = async ({ data }) => {
+  if (data.wasm) {
+    ask = load(data.wasm, data.words);
+    return;
+  }
+  const { number, request } = data;
+  try {
+    self.postMessage({ number, answer: (await ask)(request) });
+  } catch (error) {
+    self.postMessage({ number, failure: String(error) });
+  }
+};

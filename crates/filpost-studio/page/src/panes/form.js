@@ -1,0 +1,242 @@
+// The machine as a form: each setting with its text, its default, its choices, and what differs from the base.
+import { by, debounced, el } from "../dom.js";
+import { MACHINE } from "../posting.js";
+
+/** Titles of the groups, by the first part of a key; those that are not named are titled by their key. */
+const TITLES = {
+  program: "Program", units: "Units", mode: "Modes at the start", tape: "Text of the program", seqno: "Block numbers",
+  input: "Input", output: "Output", scale: "Scale", home: "Home and retract", limits: "Travel", motion: "Motion",
+  rapid: "Rapid traverse", linear: "Straight moves", circle: "Arcs", cycle: "Cycles", feed: "Feed", dwell: "Dwell",
+  cutcom: "Radius compensation", tool: "Tools", turret: "Turret", fixture: "Work offsets", spindle: "Spindle",
+  coolant: "Coolant", override: "Override", message: "Messages", rotary: "Rotary axes", repos: "Reposition",
+  lathe: "Lathe", thread: "Threads", mill_turn: "Mill-turn", list: "Listing", package: "Package", control: "Control",
+  name: "Name",
+};
+
+/** Order of the first groups; the others follow as the table has them. */
+const FIRST = ["program", "seqno", "tape", "units", "mode", "rapid", "feed", "spindle", "coolant", "tool", "fixture", "home", "circle", "cycle", "cutcom", "limits"];
+
+/** What the list shows. */
+const VIEWS = [
+  ["common", "What shops change"],
+  ["own", "Set here"],
+  ["differs", "Differs from the default machine"],
+  ["acting", "All that act"],
+  ["all", "All, also those without effect"],
+];
+
+/** Keys that `filpost new` proposes, and a few that newcomers look for. */
+const COMMON = new Set([
+  "program.number", "program.name_comment", "program.end_code", "program.safe_start", "program.tool_list", "seqno.increment", "seqno.first",
+  "seqno.off_at_start", "seqno.on_text", "tape.line_end", "tape.decimal_rule", "units.mode", "rapid.rate", "rapid.split", "feed.upm_max", "spindle.max",
+  "tool.change_time", "tool.change_stop", "tool.preselect_first", "fixture.first", "home.frame", "coolant.mist_code", "coolant.flood_code",
+  "limits.check", "limits.x_min", "limits.x_max", "limits.y_min", "limits.y_max", "limits.z_min", "limits.z_max", "circle.radius_mode", "message.waits",
+]);
+
+export class Form {
+  constructor(files, posting, ask, { open }) {
+    this.files = files;
+    this.posting = posting;
+    this.ask = ask;
+    this.openText = open;
+    this.box = el("div", { class: "form" });
+    this.problem = el("p", { class: "problem", role: "alert", hidden: true });
+    this.find = el("input", { type: "search", placeholder: "coolant, G43, seqno …", "aria-label": "Find a setting", oninput: debounced(120, () => this.show()) });
+    this.view = el("select", { "aria-label": "Which settings", onchange: () => this.show() },
+      ...VIEWS.map(([value, title]) => el("option", { value }, title)));
+    this.base = el("select", { "aria-label": "Base", onchange: () => this.set("base", JSON.stringify(this.base.value)) });
+    this.list = el("div", { class: "settings" });
+    this.box.append(
+      el("div", { class: "form-head" }, el("label", {}, "Base ", this.base), this.find, this.view),
+      this.problem,
+      this.list,
+    );
+    this.made = null;
+    const later = debounced(200, () => this.load());
+    files.changed.on((name, by) => by !== "save" && (name === MACHINE || name.endsWith(".fil")) && later());
+    files.listed.on(later);
+  }
+
+  /** Reads the settings anew. */
+  async load() {
+    const text = this.files.text(MACHINE);
+    if (text === null) return;
+    this.ready ??= await this.ask({ do: "ready" });
+    const answer = await this.ask({ do: "form", text, fil: this.posting.scripts().fil });
+    if (text !== this.files.text(MACHINE)) return;
+    const wrong = answer.errors?.[0];
+    this.problem.hidden = !wrong;
+    this.box.classList.toggle("stale", Boolean(wrong));
+    if (wrong) {
+      this.problem.textContent = `The text of ${MACHINE} can't be read: ${wrong.message}`;
+      return;
+    }
+    this.made = answer;
+    this.show();
+  }
+
+  show() {
+    if (!this.made) return;
+    const { base, settings, options, blocks } = this.made;
+    const names = this.ready.map(({ name }) => name);
+    this.base.replaceChildren(
+      ...(names.includes(base) ? [] : [el("option", { value: base ?? "" }, base ?? "none: the default machine")]),
+      ...names.map((name) => el("option", { value: name }, name)),
+    );
+    this.base.value = base ?? "";
+    const groups = new Map();
+    if (options.length) groups.set("options", []);
+    for (const name of FIRST) groups.set(name, []);
+    const add = (group, row) => groups.has(group) ? groups.get(group).push(row) : groups.set(group, [row]);
+    for (const option of options.filter((each) => this.wantsOption(each))) add("options", this.optionRow(option));
+    for (const setting of settings.filter((each) => this.wants(each))) add(setting.key.split(".")[0], this.settingRow(setting));
+    for (const list of blocks.filter((each) => this.wantsBlocks(each))) add("blocks", this.blocksRow(list));
+    const focused = document.activeElement?.id;
+    this.list.replaceChildren(...[...groups].filter(([, rows]) => rows.length).map(([group, rows]) => {
+      const title = { options: "Options of the post", blocks: "Blocks of your own" }[group] ?? TITLES[group] ?? group;
+      return el("section", {}, el("h3", {}, title), ...rows);
+    }));
+    if (!this.list.childElementCount) this.list.append(el("p", { class: "quiet" }, "No setting is like that."));
+    if (focused) by(focused)?.focus();
+  }
+
+  /** True for a text that has all words that are looked for. */
+  matches(text) {
+    const words = this.find.value.toLowerCase().split(/\s+/).filter(Boolean);
+    return words.every((word) => text.toLowerCase().includes(word));
+  }
+
+  wants(setting) {
+    const { key, meaning, own, acts, value, choices } = setting;
+    if (!this.matches(`${key} ${meaning} ${choices.map(([, text]) => text).join(" ")} ${TITLES[key.split(".")[0]] ?? ""}`)) return false;
+    const isOwn = own !== null;
+    switch (this.view.value) {
+      case "own": return isOwn;
+      case "differs": return acts && value !== setting.default;
+      case "acting": return acts || isOwn;
+      case "all": return true;
+      default: return isOwn || (acts && (COMMON.has(key) || this.find.value.trim() !== ""));
+    }
+  }
+
+  wantsOption({ name, help, own }) {
+    return this.matches(`${name} ${help} options`) && (this.view.value !== "own" || own !== null);
+  }
+
+  wantsBlocks({ key, own, value }) {
+    if (!this.matches(`${key} blocks of your own`)) return false;
+    return { own: own !== null, differs: value.length > 0, common: own !== null || value.length > 0 || this.find.value.trim() !== "" }[this.view.value] ?? true;
+  }
+
+  row(key, { label, help, control, isOwn, notes, quiet }) {
+    const id = `set-${key}`;
+    control.id = id;
+    return el(
+      "div",
+      { class: `setting${isOwn ? " own" : ""}${quiet ? " idle" : ""}` },
+      el("label", { for: id }, el("code", {}, label), el("span", {}, help)),
+      el("span", { class: "control" }, control, isOwn
+        ? el("button", { type: "button", class: "reset", title: `Take ${label} out of machine.toml`, "aria-label": `Reset ${label}`, onclick: () => this.set(key, null) }, "↺")
+        : null),
+      el("span", { class: "notes" }, ...notes.filter(Boolean).map((note) => el("span", {}, note))),
+    );
+  }
+
+  settingRow(setting) {
+    const { key, meaning, unit, choices, value, base, own, acts } = setting;
+    const shown = (number) => {
+      if (number === null) return "none";
+      const choice = choices.find(([each]) => each === number);
+      return choice ? `${number} (${choice[1]})` : said(number, unit);
+    };
+    const isOwn = own !== null;
+    return this.row(key, {
+      label: key,
+      help: meaning,
+      control: this.settingControl(setting),
+      isOwn,
+      quiet: !acts,
+      notes: [
+        isOwn && value !== base ? `base ${shown(base)}` : null,
+        base !== setting.default || isOwn ? `default ${shown(setting.default)}` : null,
+        UNITS[unit] ?? (unit === "-" || unit === "choice" || unit === "flag" ? null : unit),
+        acts ? null : "the post does not act on it",
+      ],
+    });
+  }
+
+  settingControl({ key, unit, choices, value, own }) {
+    if (choices.length) {
+      const flag = choices.every(([, text]) => text === "yes" || text === "no");
+      const known = choices.some(([each]) => each === value);
+      const none = el("option", { value: "none" }, value === null ? "none" : known ? "none" : said(value, unit));
+      const select = el(
+        "select",
+        { onchange: () => this.set(key, select.value === "none" ? '"none"' : select.value) },
+        ...choices.map(([number, text]) => el("option", { value: flag ? String(text === "yes") : String(number) }, flag ? text : `${number}  ${text}`)),
+        ...(known ? [] : [none]),
+      );
+      const current = choices.find(([each]) => each === value);
+      select.value = current ? (flag ? String(current[1] === "yes") : String(current[0])) : "none";
+      return select;
+    }
+    const text = own !== null ? own.replace(/^["'](.*)["']$/, "$1") : value === null ? "none" : said(value, unit);
+    const input = el("input", { type: "text", value: text, spellcheck: false, onchange: () => this.set(key, literal(input.value.trim(), unit)) });
+    return input;
+  }
+
+  optionRow({ name, kind, values, choices, value, help, own, group, ...option }) {
+    const key = `options.${name}`;
+    const write = (text) => this.set(key, kind === "integer" ? text : kind === "bool" ? String(text === "yes") : JSON.stringify(text));
+    let control;
+    if (choices.length) {
+      control = el("select", { onchange: () => write(control.value) }, ...choices.map((each) => el("option", { value: each }, each)));
+      control.value = value;
+    } else {
+      control = el("input", { type: "text", value, title: values, onchange: () => write(control.value.trim()) });
+    }
+    return this.row(key, {
+      label: name, help, control, isOwn: own !== null,
+      notes: [own !== null || option.default !== value ? `default ${option.default || "empty"}` : null, choices.length ? null : values],
+    });
+  }
+
+  blocksRow({ key, value, base, own }) {
+    const control = el("textarea", {
+      rows: Math.max(2, value.length + 1), value: value.join("\n"), spellcheck: false,
+      onchange: () => this.set(key, `[${control.value.split("\n").filter((line) => line.trim()).map((line) => JSON.stringify(line.trim())).join(", ")}]`),
+    });
+    return this.row(key, {
+      label: key, help: "One block in each line, written as it is here.", control, isOwn: own !== null,
+      notes: [own !== null && base.length ? `base ${base.join(" / ")}` : null],
+    });
+  }
+
+  /** Changes machine.toml. */
+  async set(key, value) {
+    const text = this.files.text(MACHINE);
+    const answer = await this.ask({ do: "set", text, key, value: value ?? undefined });
+    if (answer.text === undefined) {
+      this.problem.hidden = false;
+      this.problem.textContent = `${key} is not set: ${answer.why ?? answer.misuse}`;
+      return;
+    }
+    this.files.set(MACHINE, answer.text);
+  }
+}
+
+const UNITS = { code: "number of a G or M code", mm: "mm", deg: "degrees", rpm: "turns/min", s: "seconds", "mm/min": "mm/min", letter: "a letter", char: "a character", count: "a whole number" };
+
+/** A value as people write it. */
+function said(number, unit) {
+  if (unit === "letter" && number >= 1 && number <= 26) return String.fromCharCode(64 + number);
+  if (unit === "char" && number > 32 && number < 127) return String.fromCharCode(number);
+  return String(number);
+}
+
+/** What somebody typed as TOML writes it. */
+function literal(text, unit) {
+  if (/^[-+]?\d+(\.\d+)?$/.test(text) && unit !== "char") return text;
+  if (/^[-+]?(\d+\.|\.\d+)$/.test(text)) return String(Number(text));
+  return JSON.stringify(text);
+}

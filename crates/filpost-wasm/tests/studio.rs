@@ -1,0 +1,171 @@
+//! What the page of the studio asks: a new post, its form, edits of settings, repairs, checks.
+
+use serde_json::{Value, json};
+
+fn ask(request: Value) -> Value {
+    filpost_wasm::answer_to(request)
+}
+
+/// The files of a new post by their names.
+fn new_post(base: &str) -> impl Fn(&str) -> String {
+    let made = ask(json!({ "do": "new", "name": "mine", "base": base }));
+    move |name: &str| {
+        let files = made["files"].as_array().expect("files");
+        let file = files.iter().find(|file| file["name"] == name).expect("the file");
+        file["text"].as_str().expect("a text").to_string()
+    }
+}
+
+fn file(name: &str, text: &str) -> Value {
+    json!({ "name": name, "text": text })
+}
+
+#[test]
+fn a_new_post_gives_the_program_of_its_first_case() {
+    let text = new_post("haas-mill");
+    let posted = ask(json!({
+        "do": "post", "cl": text("cases/first/part.ncl"), "cl_name": "part.ncl",
+        "machine": file("machine.toml", &text("machine.toml")),
+        "fil": [file("post.fil", &text("post.fil"))],
+    }));
+    assert_eq!(posted["nc"], text("cases/first/expected.nc"));
+    let wrong = ask(json!({ "do": "new", "name": "mine", "base": "no-such-post" }));
+    assert_eq!(wrong["errors"][0]["code"], "E0703");
+}
+
+/// The row of a setting.
+fn row<'f>(form: &'f Value, key: &str) -> &'f Value {
+    let rows = form["settings"].as_array().expect("settings");
+    rows.iter().find(|row| row["key"] == key).expect("the row")
+}
+
+#[test]
+fn the_form_tells_what_is_set_here_and_what_the_base_has() {
+    let text = "base = \"haas-mill\"\nseqno.increment = 5\n\n[options]\nstyle = \"production\"\n";
+    let form = ask(json!({ "do": "form", "text": text }));
+    let increment = row(&form, "seqno.increment");
+    assert_eq!(increment["own"], "5");
+    assert_eq!((&increment["value"], &increment["base"]), (&json!(5.0), &json!(10.0)));
+    let split = row(&form, "rapid.split");
+    assert_eq!((&split["own"], &split["value"]), (&Value::Null, &json!(1.0)));
+    assert!(split["choices"].as_array().is_some_and(|choices| choices.len() > 1));
+    let style = form["options"]
+        .as_array()
+        .expect("options")
+        .iter()
+        .find(|option| option["name"] == "style");
+    let style = style.expect("the option");
+    assert_eq!(style["value"], "production");
+    assert_eq!(form["base"], "haas-mill");
+    let wrong = ask(json!({ "do": "form", "text": "seqno.incremnt = 5\n" }));
+    assert_eq!(wrong["errors"][0]["code"], "E0604");
+}
+
+#[test]
+fn a_setting_is_written_and_taken_back() {
+    let text = "# mine\nbase = \"haas-mill\"\n\n[limits]\nx_max = 1 # of the hall\n";
+    let set = |text: &str, key: &str, value: Option<&str>| {
+        ask(json!({ "do": "set", "text": text, "key": key, "value": value }))
+    };
+    let other = set(text, "limits.x_max", Some("400"));
+    assert_eq!(other["text"], text.replace("x_max = 1 ", "x_max = 400 "));
+    let more = set(text, "seqno.increment", Some("5"));
+    assert!(more["text"].as_str().expect("a text").ends_with("[seqno]\nincrement = 5\n"), "{more}");
+    let back = set(more["text"].as_str().expect("a text"), "seqno.increment", None);
+    assert!(!back["text"].as_str().expect("a text").contains("increment"));
+    assert!(set(text, "seqno.increment", Some("\"many\""))["why"].is_string());
+    assert!(set(text, "no.such", Some("1"))["why"].is_string());
+}
+
+#[test]
+fn a_repair_brings_its_edit() {
+    let fixes = ask(json!({
+        "do": "fixes", "language": "fil", "name": "post.fil", "text": "XX = SQRTFF(4)\nFINI\n",
+    }));
+    let fix = &fixes[0];
+    assert_eq!((&fix["title"], &fix["line"]), (&json!("write SQRTF"), &json!(0)));
+    assert_eq!(fix["edits"][0]["text"], "SQRTF");
+    let fixes = ask(json!({
+        "do": "fixes", "language": "machine", "name": "machine.toml", "text": "seqno.incremnt = 5\n",
+    }));
+    assert_eq!(fixes[0]["edits"][0]["text"], "seqno.increment");
+}
+
+#[test]
+fn a_case_is_read() {
+    let case = ask(json!({ "do": "case", "text": "cl = \"a.ncl\"\nfil = [\"b.fil\"]\n" }));
+    assert_eq!(case["case"], json!({ "cl": "a.ncl", "fil": ["b.fil"] }));
+    assert!(ask(json!({ "do": "case", "text": "cl = " }))["why"].is_string());
+}
+
+const CL: &str = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nFEDRAT / 200, MMPM\n\
+                  GOTO / 0, 0, 5\nGOTO / 10, 0, 5\nCIRCLE / 10, 10, 5, 0, 0, 1, 10\nGOTO / 20, 10, 5\nFINI\n";
+
+fn posted() -> String {
+    let posted = ask(json!({ "do": "post", "ready": "fanuc-mill", "cl": CL }));
+    posted["nc"].as_str().expect("a program").to_string()
+}
+
+#[test]
+fn a_program_is_checked_against_its_cl_file() {
+    let verify =
+        |nc: &str| ask(json!({ "do": "verify", "ready": "fanuc-mill", "cl": CL, "nc": nc }));
+    let right = verify(&posted());
+    assert_eq!(right["verdict"], "agrees", "{right}");
+    let wrong = verify(&posted().replace("X20. Y10.", "X20. Y11."));
+    assert_eq!(wrong["verdict"], "differs", "{wrong}");
+    assert!(wrong["findings"][0]["nc_line"].is_u64());
+}
+
+#[test]
+fn two_programs_are_compared_in_words() {
+    let nc = posted();
+    let compare = |other: &str| {
+        ask(json!({ "do": "compare", "ready": "fanuc-mill", "nc": nc, "other": other }))
+    };
+    assert_eq!(compare(&nc)["equal"], true);
+    let found = compare(&nc.replace("Z5.", "Z6."));
+    assert!(
+        found["differences"][0]["message"].as_str().is_some_and(|said| said.contains('Z')),
+        "{found}"
+    );
+}
+
+fn bytes(text: &Value) -> Vec<u8> {
+    let digits = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut bits = 0_u32;
+    let mut count = 0;
+    let mut bytes = Vec::new();
+    for letter in text.as_str().expect("base64").bytes().filter(|letter| *letter != b'=') {
+        let digit = digits.iter().position(|digit| *digit == letter).expect("a digit");
+        bits = (bits << 6 | digit as u32) & 0xff_ffff;
+        count += 6;
+        if count >= 8 {
+            count -= 8;
+            bytes.push((bits >> count) as u8);
+        }
+    }
+    bytes
+}
+
+#[test]
+fn the_motions_of_a_program_are_arrays_of_one_length() {
+    let nc = posted();
+    let made = ask(json!({ "do": "motions", "ready": "fanuc-mill", "nc": nc }));
+    let count = made["count"].as_u64().expect("a count") as usize;
+    let lengths =
+        ["kind", "jump", "tool", "line", "feed", "points"].map(|key| bytes(&made[key]).len());
+    assert_eq!(lengths, [count, count, 2 * count, 4 * count, 4 * count, 12 * count]);
+    let points = bytes(&made["points"]);
+    let number =
+        |at: usize| f32::from_le_bytes(points[4 * at..4 * at + 4].try_into().expect("four"));
+    let last = [0, 1, 2].map(|axis| number(3 * (count - 1) + axis));
+    assert_eq!(last, [20.0, 10.0, 5.0]);
+    assert!(bytes(&made["kind"]).contains(&2), "the arc has chords");
+    let lines = nc.lines().count() as u32;
+    let line = bytes(&made["line"]);
+    let all = line.chunks(4).map(|four| u32::from_le_bytes(four.try_into().expect("four")));
+    assert!(all.into_iter().all(|line| (1..=lines).contains(&line)));
+    // An axis array is there for a machine that tilts its tool alone.
+    assert_eq!(bytes(&made["axis"]).len(), 0);
+}
