@@ -112,7 +112,7 @@ impl Run<'_> {
         let first = self.first_pass(&mut Cursor::new(cl))?;
         let reader = Reader::seekable(Cursor::new(cl), &self.name(), self.options());
         let records = Stream::Cl(Box::new(reader));
-        let pass = Pass::writing(first, self.has_script());
+        let pass = Pass::writing(first, self.program.has_script());
         let (mut posted, pending) = self.post_whole(records, pass)?;
         again.warn_of_undecided(cl, &mut posted.report)?;
         pending.commit()?;

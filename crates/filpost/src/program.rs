@@ -193,6 +193,12 @@ impl Program {
         self.start().blocks(cl)
     }
 
+    /// True where FIL may change what a record, a block or the program becomes.
+    pub(crate) fn has_script(&self) -> bool {
+        let module = &self.shared.module;
+        module.asks_totals() || module.edits_output() || !module.has_no_section()
+    }
+
     /// Warnings of building: settings without effect, forgiven FIL.
     pub fn warnings(&self) -> &[Diag] {
         &self.shared.warnings

@@ -418,14 +418,8 @@ impl<'o> Run<'o> {
         map: Option<map::Writer<'o>>,
         nc: &mut dyn Write,
     ) -> Done<'o> {
-        let pass = Pass::writing(first, self.has_script());
+        let pass = Pass::writing(first, self.program.has_script());
         self.drive(Stream::Cl(Box::new(reader)), pass, map, nc)
-    }
-
-    /// True where FIL may do other things in a second pass than in the first.
-    pub(crate) fn has_script(&self) -> bool {
-        let module = &self.program.shared.module;
-        module.asks_totals() || module.edits_output() || !module.has_no_section()
     }
 
     /// True where somebody asks what made each block.

@@ -54,7 +54,7 @@ FINI
 fn simulated(post: &str, stock: &str) -> Option<Simulated> {
     let program = Program::builder().ready(post).build().expect("a ready post");
     let mut nc = Vec::new();
-    match program.run(PLATE.as_bytes(), &mut nc) {
+    match program.stream(PLATE.as_bytes(), &mut nc) {
         Ok(_) => {}
         Err(error) if error.diags()[0].code.name() == "E0507" => return None,
         Err(error) => panic!("{post}: {error}"),

@@ -29,7 +29,7 @@ pub struct ClTools {
 /// # Errors
 /// What the CL reader refuses.
 pub fn cl_tools(cl: &ClText<'_>, commons: &Commons) -> Result<ClTools, Error> {
-    let known = units::known_before(cl.unit, commons).map_err(Error::Run)?;
+    let known = units::known_before(cl.unit, None, commons).map_err(Error::Run)?;
     let mut reading = Reading {
         unit: known.map_or(1.0, |(unit, _)| mm_of(unit)),
         number: None,
