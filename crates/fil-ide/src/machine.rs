@@ -11,13 +11,15 @@ use crate::symbols::{Outline, OutlineKind};
 use crate::tables;
 use crate::text::{Position, Range, Text};
 
+/// Reads a `machine.toml` that may begin from a ready post: the warnings, or what is wrong.
+fn read(name: &str, text: &str) -> Result<Vec<Diag>, Vec<Diag>> {
+    let ready = |base: &str| filpost::ready::find(base).map(|post| post.machine);
+    settings::read_toml_with(name, text, &ready).map(|(_, warnings)| warnings)
+}
+
 /// What is wrong in a `machine.toml`.
 pub fn findings(name: &str, text: &Text) -> Vec<Finding> {
-    let ready = |base: &str| filpost::ready::find(base).map(|post| post.machine);
-    let diags: Vec<Diag> = match settings::read_toml_with(name, text.as_str(), &ready) {
-        Ok((_, warnings)) => warnings,
-        Err(diags) => diags,
-    };
+    let diags = read(name, text.as_str()).unwrap_or_else(|diags| diags);
     let found = diags.iter().map(|diag| {
         let place = diag.spans.first();
         let line = place.map_or(0, |place| (place.line as usize).saturating_sub(1));
@@ -192,10 +194,7 @@ pub fn edit(text: &Text, key: &str, value: Option<&str>) -> Result<(Range, Strin
     };
     let whole = text.as_str();
     let after = format!("{}{new}{}", &whole[..bytes.start], &whole[bytes.end..]);
-    let errors = |text: &str| match settings::read_toml("machine.toml", text) {
-        Ok(_) => Vec::new(),
-        Err(diags) => diags,
-    };
+    let errors = |text: &str| read("machine.toml", text).err().unwrap_or_default();
     let before = errors(whole).len();
     let wrong = errors(&after);
     if wrong.len() > before {
@@ -273,4 +272,18 @@ fn whole_line(text: &Text, line: usize) -> Result<std::ops::Range<usize>, String
     let end =
         if line + 1 < text.line_count() { text.line_bytes(line + 1).start } else { bytes.end };
     Ok(bytes.start..end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wrong_value_is_refused_in_a_machine_that_begins_from_a_ready_post() {
+        for text in ["", "base = \"haas-mill\"\n"] {
+            let text = Text::new(text);
+            assert!(edit(&text, "program.number", Some("\"many\"")).is_err());
+            assert!(edit(&text, "program.number", Some("12")).is_ok());
+        }
+    }
 }

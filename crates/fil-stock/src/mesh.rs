@@ -85,9 +85,9 @@ impl Mesh {
 impl Size {
     /// Grows to a point.
     pub(crate) fn add(&mut self, point: [f64; 3]) {
-        for axis in 0..3 {
-            self.least[axis] = self.least[axis].min(point[axis]);
-            self.most[axis] = self.most[axis].max(point[axis]);
+        for (axis, at) in point.into_iter().enumerate() {
+            self.least[axis] = self.least[axis].min(at);
+            self.most[axis] = self.most[axis].max(at);
         }
     }
 }
@@ -139,14 +139,14 @@ fn ascii(bytes: &[u8]) -> Result<Vec<Triangle>, String> {
                 let wrong = || format!("line {} has no three coordinates", number + 1);
                 corners.push(corner.ok_or_else(wrong)?);
             }
-            Some("endfacet") if corners.len() % 3 != 0 => {
+            Some("endfacet") if !corners.len().is_multiple_of(3) => {
                 return Err(format!("the facet before line {} has not three corners", number + 1));
             }
             Some("endsolid") => is_ended = true,
             _ => {}
         }
     }
-    if !is_ended || corners.len() % 3 != 0 {
+    if !is_ended || !corners.len().is_multiple_of(3) {
         return Err("it is cut off: `endsolid` is missing".into());
     }
     Ok(corners.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect())

@@ -246,7 +246,7 @@ fn letters(text: &str) -> Result<Vec<(char, &str)>, String> {
 pub fn from_cutter(values: &[f64], unit: f64) -> Result<Tool, String> {
     let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
     let (tip_angle, side_angle) = (value(4), value(5));
-    let point = (tip_angle != 0.0).then(|| 180.0 - 2.0 * tip_angle);
+    let point = (tip_angle != 0.0).then_some(180.0 - 2.0 * tip_angle);
     described([value(0) * unit, value(1) * unit, value(6) * unit], side_angle, point)
 }
 

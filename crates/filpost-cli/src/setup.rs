@@ -234,9 +234,9 @@ pub fn compat(reading: &Reading) -> Result<CompatFile, Error> {
     filpost::read_compat(&path.display().to_string(), &text).map_err(Error::Run)
 }
 
-/// A folder with `machine.toml` and, where there is one, `post.fil`.
+/// A folder with `machine.toml` and `post.fil`, or other FIL files where there is none.
 fn folder(folder: &Path, encoding: Option<&str>) -> Result<Named, Error> {
-    let (machine, fil) = files::of_post(folder);
+    let (machine, fil) = files::of_post(folder)?;
     let mut named = machine_file(&machine, encoding)?;
     named.fil.extend(fil);
     named.title = folder.display().to_string();

@@ -179,20 +179,19 @@ impl Builder {
         self
     }
 
-    /// The post in a folder: its `machine.toml` and, where there is one, `post.fil`, whose
-    /// INCLUD finds files beside it.
+    /// The post in a folder: its `machine.toml`, and `post.fil` or, where there is none, all its
+    /// FIL files by name; INCLUD finds files beside them.
     ///
     /// # Errors
     /// E0701 for a file that can't be read.
     #[cfg(feature = "files")]
     pub fn folder(self, folder: &Path) -> Result<Self, Error> {
-        let (machine, fil) = files::of_post(folder);
+        let (machine, fil) = files::of_post(folder)?;
         let name = |path: &Path| path.display().to_string();
         let mut builder = self.machine(&name(&machine), &files::read_text(&machine, None)?);
-        if let Some(fil) = &fil {
-            builder = builder.fil(&name(fil), &files::read_text(fil, None)?);
+        for path in &fil {
+            builder = builder.fil(&name(path), &files::read_text(path, None)?);
         }
-        let fil: Vec<PathBuf> = fil.into_iter().collect();
         Ok(builder.includes(includes::beside_either(&fil, &[machine], None)))
     }
 

@@ -14,10 +14,27 @@ use crate::pending::{NewFile, PendingFiles};
 #[cfg(feature = "files")]
 pub use crate::pending::give_up;
 
-/// The `machine.toml` of a post in a folder, and its `post.fil` where there is one.
-pub fn of_post(folder: &Path) -> (PathBuf, Option<PathBuf>) {
-    let fil = folder.join("post.fil");
-    (folder.join("machine.toml"), Some(fil).filter(|fil| fil.is_file()))
+/// The files of a post in a folder: its `machine.toml`, and `post.fil` or, where there is none,
+/// all files that end with `.fil`, by name.
+///
+/// # Errors
+/// E0701 for a folder that can't be read.
+pub fn of_post(folder: &Path) -> Result<(PathBuf, Vec<PathBuf>), Error> {
+    let main = folder.join("post.fil");
+    let fil = if main.is_file() { vec![main] } else { fil_of(folder)? };
+    Ok((folder.join("machine.toml"), fil))
+}
+
+fn fil_of(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let entries = std::fs::read_dir(folder).map_err(|error| cant_read(folder, &error))?;
+    let is_fil = |path: &PathBuf| {
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        ending.is_some_and(|ending| ending.eq_ignore_ascii_case("fil")) && path.is_file()
+    };
+    let mut fil: Vec<PathBuf> =
+        entries.filter_map(|entry| Some(entry.ok()?.path())).filter(is_fil).collect();
+    fil.sort();
+    Ok(fil)
 }
 
 /// Reads a whole file.

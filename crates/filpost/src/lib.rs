@@ -59,6 +59,7 @@
 #![deny(missing_docs)]
 
 mod allow;
+#[doc(hidden)]
 pub mod audit;
 mod blocks;
 mod builder;
@@ -124,6 +125,7 @@ mod script_files;
 mod script_files;
 #[doc(hidden)]
 pub mod select;
+#[doc(hidden)]
 pub mod simulate;
 mod source;
 mod spilled;

@@ -72,7 +72,7 @@ fn linuxcnc_reads_the_programs_for_it() {
         return;
     };
     let cases = filpost::case::find(&root().join("corpus/posts/linuxcnc-5x")).expect("cases");
-    assert_eq!(cases.len(), 10);
+    assert_eq!(cases.len(), 12);
     for case in cases {
         let nc = std::fs::read_to_string(case.folder.join("part.nc")).expect("a program");
         let calls = rs274::run(&interpreter, &nc)
@@ -81,7 +81,7 @@ fn linuxcnc_reads_the_programs_for_it() {
             Canon::Traverse(to) | Canon::Feed(to) => to[3] != 0.0 && to[5] != 0.0,
             _ => false,
         });
-        let plain = ["plain", "arcs"].iter().any(|name| case.folder.ends_with(name));
+        let plain = ["plain", "arcs", "production"].iter().any(|name| case.folder.ends_with(name));
         assert!(turned || plain, "{}", case.folder.display());
     }
 }

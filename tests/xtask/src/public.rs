@@ -149,7 +149,7 @@ fn define(shown: &str, item: &Item, name: &str, out: &mut BTreeSet<String>) {
 fn implement(shown: &str, item: &Item, name: &str, out: &mut BTreeSet<String>) {
     let Item::Impl(block) = item else { return };
     let syn::Type::Path(of) = &*block.self_ty else { return };
-    if !of.path.segments.last().is_some_and(|part| part.ident == name) {
+    if of.path.segments.last().is_none_or(|part| part.ident != name) {
         return;
     }
     if let Some((_, path, _)) = &block.trait_ {
@@ -308,7 +308,7 @@ fn own(sources: &Sources, shown: &str, path: &ModulePath, item: &Item, out: &mut
 #[test]
 fn the_public_api_is_that_of_its_file() {
     let root = filpost_tests::root();
-    let found = listing(&root).unwrap();
+    let found = listing(root).unwrap();
     let file = root.join("tests/api/filpost.txt");
     if std::env::var_os("FILPOST_UPDATE").is_some() {
         fs::create_dir_all(file.parent().expect("a folder")).unwrap();
@@ -330,7 +330,7 @@ fn the_public_api_is_that_of_its_file() {
 
 #[test]
 fn what_is_hidden_is_not_listed() {
-    let found = listing(&filpost_tests::root()).unwrap();
+    let found = listing(filpost_tests::root()).unwrap();
     for (name, is_listed) in [
         ("fn filpost::Program::post(", true),
         ("field filpost::Limits::fuel: u64", true),
@@ -386,7 +386,7 @@ fn numbers_of_codes_stay() {
 #[test]
 fn the_host_program_needs_nothing_else() {
     let root = filpost_tests::root();
-    let listed = listing(&root).unwrap();
+    let listed = listing(root).unwrap();
     let text = fs::read_to_string(root.join("crates/filpost/tests/host.rs")).unwrap();
     let syntax = syn::parse_file(&text).unwrap();
     let mut names = 0;

@@ -250,8 +250,8 @@ impl<C: Steps> Verifier<'_, C> {
             if found.course != Course::Rapid || !stays {
                 break;
             }
-            for n in 0..2 {
-                open[n] &= found.to.rotary[n].abs() > self.slack.rotary[n];
+            for (n, open) in open.iter_mut().enumerate() {
+                *open &= found.to.rotary[n].abs() > self.slack.rotary[n];
             }
             self.take_without_length(cl_line, &found);
             self.next += 1;

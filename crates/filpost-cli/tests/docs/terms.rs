@@ -39,9 +39,7 @@ fn pages() -> Vec<(String, String)> {
             files.filter(|file| file.ends_with(".md")).map(|file| format!("{folder}/{file}")),
         );
     }
-    names.retain(|name| {
-        !["docs/history.md", "docs/SUMMARY.md", "docs/compat.md"].contains(&name.as_str())
-    });
+    names.retain(|name| !["docs/history.md", "docs/SUMMARY.md"].contains(&name.as_str()));
     let read = |name: String| {
         let text = std::fs::read_to_string(root().join(&name)).expect("a page");
         (name, text)

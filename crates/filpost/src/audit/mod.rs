@@ -198,12 +198,13 @@ impl Run<'_> {
     /// )?;
     /// assert_eq!(audit.verdict(), Verdict::Changed);
     /// let change = audit.changes[0].to_string();
-    /// assert!(change.starts_with("mill.fil:2 section COOLNT, CL line 4: `M88` put in"), "{change}");
+    /// assert!(change.starts_with("mill.fil:2 section COOLNT, CL line 4: `M8` -> `M88`"), "{change}");
     /// # Ok::<(), filpost::Error>(())
     /// ```
     ///
     /// # Errors
     /// A CL file, program or map that can't be read; E0707, E0708 for a map of another run.
+    #[doc(hidden)]
     pub fn audit<R: Read + Seek>(
         self,
         mut cl: impl Read + Send,

@@ -29,15 +29,18 @@ pub struct ClTools {
 /// # Errors
 /// What the CL reader refuses.
 pub fn cl_tools(cl: &ClText<'_>, commons: &Commons) -> Result<ClTools, Error> {
-    let known = units::known_before(cl.unit, None, commons).map_err(Error::Run)?;
+    let mut reader = Reader::new(cl.text.bytes, cl.text.name, cl.options);
+    let told = reader.told_unit();
+    let told = told.map(|word| if word == w::INCHES { Unit::Inch } else { Unit::Mm });
+    let known = units::known_before(cl.unit, told, commons).map_err(Error::Run)?;
     let mut reading = Reading {
-        unit: known.map_or(1.0, |(unit, _)| mm_of(unit)),
+        unit: known.map(|(unit, _)| mm_of(unit)),
         number: None,
+        data_diameter: None,
         described: None,
         has_moved: true,
         found: ClTools::default(),
     };
-    let mut reader = Reader::new(cl.text.bytes, cl.text.name, cl.options);
     let (mut vocabulary, mut record) = (Vocabulary::default(), Record::default());
     while reader.read(&mut vocabulary, &mut record).map_err(Error::Run)? {
         reading.take(&record);
@@ -50,10 +53,12 @@ fn mm_of(unit: Unit) -> f64 {
 }
 
 struct Reading {
-    /// Millimetres of a length in the file.
-    unit: f64,
+    /// Millimetres of a length in the file; `None` while nothing says it.
+    unit: Option<f64>,
     /// The tool in use.
     number: Option<u32>,
+    /// The diameter of a TLDATA right before.
+    data_diameter: Option<f64>,
     /// The tool that was described last.
     described: Option<Result<Tool, String>>,
     /// A motion came since the tool was changed or described.
@@ -64,11 +69,14 @@ struct Reading {
 impl Reading {
     fn take(&mut self, record: &Record) {
         match record.major {
-            w::UNITS | w::UNIT if record.has(w::MM) => self.unit = 1.0,
-            w::UNITS | w::UNIT => self.unit = INCH,
+            w::UNITS | w::UNIT if record.has(w::MM) => self.unit = Some(1.0),
+            w::UNITS | w::UNIT => self.unit = Some(INCH),
             w::LOADTL | w::TURRET => self.change(record),
             w::LOAD if record.has(w::TOOL) => self.change(record),
-            _ if record.kind == kind::MOTION => self.has_moved = true,
+            _ if record.kind == kind::MOTION => {
+                self.note();
+                self.has_moved = true;
+            }
             _ if !record.tool_values().is_empty() => self.describe(record),
             _ => {}
         }
@@ -85,7 +93,6 @@ impl Reading {
             self.described = None;
         }
         self.has_moved = false;
-        self.note();
     }
 
     fn describe(&mut self, record: &Record) {
@@ -99,24 +106,23 @@ impl Reading {
             })
             .collect();
         // Behind TLDATA the reader gives its diameter once more.
-        if values.len() == 1 && self.described.is_some() && !self.has_moved {
+        let is_again = values.len() == 1 && self.data_diameter == values.first().copied();
+        self.data_diameter = values.first().copied().filter(|_| is_data);
+        if is_again && !is_data {
             return;
         }
         let drills = is_data && record.has(w::DRILL);
-        let made = if is_data {
-            from_tool_data(&values, self.unit, drills)
-        } else {
-            from_cutter(&values, self.unit)
+        let made = match self.unit {
+            None => Err("the unit of the CL file is not known (--units)".to_string()),
+            Some(unit) if is_data => from_tool_data(&values, unit, drills),
+            Some(unit) => from_cutter(&values, unit),
         };
         self.described = Some(made);
-        if self.has_moved {
-            // It is that of the next tool, unless the tool stays.
-            self.has_moved = false;
-        }
-        self.note();
+        // Before a tool change it is that of the next tool.
+        self.has_moved = false;
     }
 
-    /// Gives the tool in use its description. The first one counts.
+    /// Gives the tool that moves its description. The first one counts.
     fn note(&mut self) {
         let (Some(number), Some(described)) = (self.number, &self.described) else { return };
         if self.found.tools.contains_key(&number) || self.found.unknown.contains_key(&number) {
@@ -126,5 +132,48 @@ impl Reading {
             Ok(tool) => drop(self.found.tools.insert(number, tool.clone())),
             Err(why) => drop(self.found.unknown.insert(number, why.clone())),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::Text;
+    use fil_cl::reader::Options;
+    use fil_machine::locations::default_commons;
+    use fil_stock::Shape;
+
+    /// Diameters by number.
+    fn diameters(cl: &str) -> Vec<(u32, f64)> {
+        let text = Text { name: "part.ncl", bytes: cl.as_bytes() };
+        let cl = ClText { text, options: Options::default(), unit: None };
+        let found = cl_tools(&cl, &default_commons()).expect("tools").tools;
+        let diameter = |(number, tool): (u32, Tool)| (number, 2.0 * tool.shape.radius());
+        found.into_iter().map(diameter).collect()
+    }
+
+    #[test]
+    fn a_description_is_of_the_tool_that_moves_next() {
+        let before = "UNITS / MM\nLOADTL / 1\nGOTO / 1, 2, 3\nCUTTER / 6\nLOADTL / 2\nGOTO / 1, 2, 3\nFINI\n";
+        assert_eq!(diameters(before), [(2, 6.0)]);
+        let unused =
+            "UNITS / MM\nLOADTL / 1\nCUTTER / 10\nLOADTL / 2\nCUTTER / 6\nGOTO / 1, 2, 3\nFINI\n";
+        assert_eq!(diameters(unused), [(2, 6.0)]);
+        let behind = "UNITS / INCHES\nLOADTL / 1\nCUTTER / 0.5, 0.1\nGOTO / 1, 2, 3\nFINI\n";
+        assert_eq!(diameters(behind), [(1, 12.7)]);
+    }
+
+    #[test]
+    fn without_a_unit_no_tool_has_a_size() {
+        assert!(diameters("LOADTL / 1\nCUTTER / 10\nGOTO / 1, 2, 3\nFINI\n").is_empty());
+    }
+
+    #[test]
+    fn the_values_of_nx_come_with_their_corner() {
+        let text = "TLDATA/MILL,10.0,2.0,50.0,0.0,0.0\nLOAD/TOOL,1\nGOTO/1.0,2.0,3.0\n";
+        let text = Text { name: "part.cls", bytes: text.as_bytes() };
+        let cl = ClText { text, options: Options::default(), unit: Some(Unit::Mm) };
+        let found = cl_tools(&cl, &default_commons()).expect("tools").tools;
+        assert_eq!(found[&1].shape, Shape::Round { radius: 5.0, corner: 2.0 });
     }
 }

@@ -108,7 +108,7 @@ fn index(text: &str, line: &str) -> Option<String> {
     let mut lines: Vec<&str> = text.lines().collect();
     let later = |line: &&str| key(line).is_some_and(|found| found > new);
     let last = lines.iter().rposition(|line| key(line).is_some())? + 1;
-    let place = lines.iter().position(|line| later(&line)).unwrap_or(last);
+    let place = lines.iter().position(later).unwrap_or(last);
     lines.insert(place, line);
     Some(lines.join("\n") + "\n")
 }

@@ -36,7 +36,7 @@ fn copy() -> (tempfile::TempDir, Tree) {
 
 /// Each file has its lines and one that begins so, with its neighbours in order.
 fn has_new_line(folder: &Path, file: &str, line: &str) {
-    let (before, after) = (read(&filpost_tests::root(), file), read(folder, file));
+    let (before, after) = (read(filpost_tests::root(), file), read(folder, file));
     let new: Vec<&str> =
         after.lines().filter(|line| !before.lines().any(|old| old == *line)).collect();
     assert!(new.contains(&line), "{file}: {new:?}");
@@ -119,13 +119,13 @@ fn a_new_post_is_in_all_its_places() {
 #[test]
 fn each_ready_post_has_a_judged_program() {
     let root = filpost_tests::root();
-    let not_followed: Vec<String> = read(&root, "tests/verify/agree.txt")
+    let not_followed: Vec<String> = read(root, "tests/verify/agree.txt")
         .lines()
         .filter_map(|line| line.split_once(": E").map(|(case, _)| case.to_string()))
         .collect();
     let mut judged = Vec::new();
     for case in cases(&root.join("corpus")) {
-        let name = case.strip_prefix(&root).unwrap().display().to_string();
+        let name = case.strip_prefix(root).unwrap().display().to_string();
         let text = fs::read_to_string(case.join("case.toml")).unwrap();
         let post = text.lines().find_map(|line| line.strip_prefix("ready = \"")?.strip_suffix('"'));
         let has_program = text.lines().any(|line| line.starts_with("expect = "));

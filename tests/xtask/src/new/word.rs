@@ -103,8 +103,8 @@ fn example(text: &str, name: &str) -> Option<String> {
 fn summary(text: &str, line: &str) -> Option<String> {
     let mut lines: Vec<&str> = text.lines().collect();
     let is_word = |line: &&str| line.contains("](reference/word-");
-    let last = lines.iter().rposition(|line| is_word(&line))? + 1;
-    let place = lines.iter().position(|found| is_word(&found) && *found > line).unwrap_or(last);
+    let last = lines.iter().rposition(&is_word)? + 1;
+    let place = lines.iter().position(|found| is_word(found) && *found > line).unwrap_or(last);
     lines.insert(place, line);
     Some(lines.join("\n") + "\n")
 }
