@@ -22,7 +22,7 @@ const ALIGNED: usize = 8;
 /// | `strokes` | u8 | 0 rapid, 1 feed, 2 arc, 3 thread |
 /// | `lines` | u32 | line of the program, 1-based |
 /// | `seconds` | f64 | time from the start to the end of a piece |
-/// | `forceFrom` … | see [`in_force`] | what is in force from a piece on |
+/// | `forceFrom` … | see `in_force` | what is in force from a piece on |
 /// | `axesFrom`, `axes` | u32; f32, three a row | direction of the tool from a piece on |
 /// | `rotaryFrom`, `rotary` | u32; f32, two a row | rotary axes at the end of a piece and after it, degrees |
 /// | `changeFrom`, `changeTool`, `changeLine`, `changeAt` | u32; f32, three a row | tool changes |

@@ -62,7 +62,7 @@ pub struct MaterialArgs {
     /// Where a further work offset lies, as G55=60,0,0: its zero in the first one (may be given again)
     #[arg(long, value_name = "G=X,Y,Z", value_parser = offset)]
     pub offset: Vec<(u32, [f64; 3])>,
-    /// A TOML file with stock, part, part_tol, grid and [tools]; options win over it
+    /// A TOML file with stock, part, part_tol, grid and a table `tools`; options win over it
     #[arg(long, value_name = "FILE")]
     pub setup: Option<PathBuf>,
 }

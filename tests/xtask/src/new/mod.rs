@@ -26,7 +26,7 @@ pub fn word(args: &WordArgs) -> Result<ExitCode, String> {
 /// Writes the skeleton of a code.
 ///
 /// # Errors
-/// As [`word`].
+/// As [`word()`].
 pub fn code(args: &CodeArgs) -> Result<ExitCode, String> {
     finish(code::write(&mut Tree::new(filpost_tests::root().to_path_buf()), args)?)
 }
@@ -34,7 +34,7 @@ pub fn code(args: &CodeArgs) -> Result<ExitCode, String> {
 /// Writes the skeleton of a ready post.
 ///
 /// # Errors
-/// As [`word`].
+/// As [`word()`].
 pub fn post(args: &PostArgs) -> Result<ExitCode, String> {
     finish(post::write(&mut Tree::new(filpost_tests::root().to_path_buf()), args)?)
 }
