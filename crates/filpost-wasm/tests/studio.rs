@@ -112,7 +112,7 @@ fn a_program_is_checked_against_its_cl_file() {
         |nc: &str| ask(json!({ "do": "verify", "ready": "fanuc-mill", "cl": CL, "nc": nc }));
     let right = verify(&posted());
     assert_eq!(right["verdict"], "agrees", "{right}");
-    let wrong = verify(&posted().replace("X20. Y10.", "X20. Y11."));
+    let wrong = verify(&posted().replace("Z5.", "Z6."));
     assert_eq!(wrong["verdict"], "differs", "{wrong}");
     assert!(wrong["findings"][0]["nc_line"].is_u64());
 }
