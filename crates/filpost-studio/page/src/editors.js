@@ -148,6 +148,11 @@ function proposals(ask, file) {
   };
 }
 
+/** The name of a text for readers of the screen, which the keys reach. */
+function labelled(name) {
+  return EditorView.contentAttributes.of({ "aria-label": name, tabindex: "0" });
+}
+
 /** Tells the line of the cursor when it has moved. */
 function cursor(told) {
   return EditorView.updateListener.of((update) => {
@@ -167,7 +172,7 @@ export function editor(parent, { name, text, kind, readOnly, ask, file, changed,
     basicSetup,
     languageOf(kind),
     marked,
-    EditorView.contentAttributes.of({ "aria-label": name }),
+    labelled(name),
     EditorState.readOnly.of(Boolean(readOnly)),
     EditorView.updateListener.of((update) => {
       const outside = update.transactions.some((each) => each.annotation(fromOutside));
@@ -194,7 +199,7 @@ export function reader(parent, { label, kind, origin, pointed }) {
     fresh,
     tips,
     cursor(pointed),
-    EditorView.contentAttributes.of({ "aria-label": label }),
+    labelled(label),
     EditorState.readOnly.of(true),
   ];
   return new EditorView({ parent, state: EditorState.create({ extensions }) });

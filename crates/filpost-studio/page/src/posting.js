@@ -48,7 +48,7 @@ export class Posting {
   /** The FIL files of the post: those of the part's case, or post.fil, or all in the folder itself; and what they may include. */
   scripts() {
     const known = this.files.names().filter((name) => isFil(name) && this.files.text(name) !== null);
-    const own = known.filter((name) => !name.includes("/") && /\.(fil|f\d\d)$/i.test(name));
+    const own = known.filter((name) => !name.includes("/") && /\.fil$/i.test(name));
     const ofCase = this.recipe?.fil?.filter((name) => known.includes(name));
     const fil = ofCase ?? (own.includes("post.fil") ? ["post.fil"] : own);
     const file = (name) => ({ name, text: this.files.text(name) });

@@ -28,7 +28,7 @@ export class PathPane {
     this.second.addEventListener("change", () => this.showSecond());
     posting.done.on(() => {
       this.isStale = true;
-      if (this.isOpen) this.show();
+      if (this.isOpen) this.open();
     });
     files.listed.on(() => this.listSecond());
     this.listSecond();
@@ -38,9 +38,10 @@ export class PathPane {
     return !by("panel-path").hidden;
   }
 
+  /** Shows the program as it is now; the first time loads the view before. */
   async open() {
     try {
-      if (!this.view) await this.start();
+      await (this.ready ??= this.start());
       if (this.isStale) await this.show();
     } catch (error) {
       tell("The path can't be shown", error.message);
@@ -48,10 +49,9 @@ export class PathPane {
   }
 
   async start() {
-    this.started ??= load();
-    const { createView, readProgram, bytesOf } = await this.started;
+    const { createView, readProgram, bytesOf } = await load();
     this.read = (answer) => readProgram(bytesOf(answer.columns));
-    this.view ??= createView(by("view"), {
+    this.view = createView(by("view"), {
       onPick: (line, of) => of === "program" && this.picked.tell(line),
       textOf: (line) => this.posting.lines[line - 1] ?? "",
       tools: [el("label", {}, "over ", this.second)],

@@ -19,8 +19,15 @@ export class Program {
 
   show() {
     const { answer, part, lines } = this.posting;
+    const text = lines.join("\n");
+    if (answer?.nc && this.last?.part === part && this.view.state.doc.toString() === text) {
+      // The same program again: the block that is pointed at stays, what made it may stand elsewhere.
+      if (this.line) this.showCause(this.line);
+      return;
+    }
+    this.line = null;
     markLines(this.view, [], false);
-    setText(this.view, lines.join("\n"));
+    setText(this.view, text);
     if (!answer?.nc) {
       showFresh(this.view, []);
       by("cause").replaceChildren();
@@ -54,7 +61,13 @@ export class Program {
   }
 
   point(line) {
+    this.line = line;
     markLines(this.view, [], false);
+    this.showCause(line);
+    this.pointed.tell(line, this.places(line));
+  }
+
+  showCause(line) {
     const places = this.places(line);
     const record = this.posting.origin(line)?.record;
     by("cause").replaceChildren(...places.map(([name, at], index) => {
@@ -67,7 +80,6 @@ export class Program {
         el("code", {}, text),
       );
     }));
-    this.pointed.tell(line, places);
   }
 
   /** Shows a line of the program. */
