@@ -193,25 +193,16 @@ fn no_point(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
 }
 
 /// What a turn of a table leaves open. ABSOL and INCR say what its angle counts from.
-fn turn(record: &Record) -> &'static str {
-    match (record.major, record.has(w::ABSOL) || record.has(w::INCR)) {
-        (w::ROTATE, false) => {
-            "it turns a table or a head, and whether the angle counts from zero and the points turn \
-             with it is not in the file"
-        }
-        (w::ROTATE, true) => {
-            "it turns a table or a head, and whether the points turn with it is not in the file"
-        }
-        (_, false) => {
-            "it turns the part, and whether the angle counts from zero and the points turn with it \
-             is not in the file"
-        }
-        (_, true) => "it turns the part, and whether the points turn with it is not in the file",
-    }
+fn turn(record: &Record) -> String {
+    let what = if record.major == w::ROTATE { "a table or a head" } else { "the part" };
+    let says_zero = record.has(w::ABSOL) || record.has(w::INCR);
+    let zero = if says_zero { "" } else { "the angle counts from zero and " };
+    format!("it turns {what}, and whether {zero}the points turn with it is not in the file")
 }
 
 fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
     let major = vocabulary.name(record.major);
+    let turn = turn(record);
     let (reason, hint) = match record.major {
         w::SYNC => (
             "programs of other channels wait here for each other, and the post writes one program",
@@ -233,7 +224,7 @@ fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
              FIL section take it.",
         ),
         w::ROTATE => (
-            turn(record),
+            turn.as_str(),
             "Say it with rotary.table_words: 1 where the points stay, 2 where they turn with the \
              table. Or give the tool axis with each point (MULTAX/ON, GOTO/x,y,z,i,j,k): the post \
              turns the axes then, and ROTATE can stand under words.without_effect in machine.toml.",
@@ -263,7 +254,7 @@ fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
              file already, list INDEX and COPY under words.without_effect in machine.toml.",
         ),
         w::ROTABL => (
-            turn(record),
+            turn.as_str(),
             "Say it with rotary.table_words: 1 where the points stay, 2 where they turn with the \
              table. Where each point of the file has its \
              tool axis in the part (MULTAX/ON), the axes turn the table already: list ROTABL under \

@@ -191,7 +191,7 @@ impl Letters {
             (None, corner) => round(radius, corner.unwrap_or(0.0))?,
         };
         if !self.holder.is_empty() && value('L').is_none() {
-            return Err("a holder (H) needs the length of the tool below it (L)".into());
+            return Err("a holder (H) needs the tool length below it (L)".into());
         }
         let toothless = value('C').unwrap_or(0.0) / 2.0;
         Ok(Tool { shape, length: value('L'), holder: self.holder, toothless })

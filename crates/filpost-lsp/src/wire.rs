@@ -46,7 +46,7 @@ impl Threads {
     /// Waits for what is still to be written, and for the editor to leave.
     ///
     /// # Errors
-    /// A message that is none, or that is too long; an output that is closed.
+    /// A message that is invalid or too long; an output that is closed.
     pub fn join(self) -> Result<(), String> {
         let fault = "a thread has failed".to_string();
         self.reading.join().map_err(|_| fault.clone())??;
@@ -57,7 +57,7 @@ impl Threads {
 /// The next message; `None` at the end of the input.
 ///
 /// # Errors
-/// A head without a length, a message that is too long or that is none, in a sentence.
+/// A header without a length; a message that is invalid or too long.
 fn read(input: &mut impl BufRead) -> Result<Option<Message>, String> {
     let mut length = None;
     loop {

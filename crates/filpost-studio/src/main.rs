@@ -8,8 +8,8 @@ use filpost_studio::{Studio, browser};
 
 /// Makes, runs and judges a post in one page of the browser.
 ///
-/// The page answers on this computer alone and has no other files than those of the folder. It ends
-/// with Ctrl-C, or when its page is closed.
+/// The page works on this computer only and opens only the files in the folder. It ends with Ctrl-C,
+/// or when you close its page.
 #[derive(Debug, Parser)]
 #[command(name = "filpost studio", bin_name = "filpost studio", version, max_term_width = 100)]
 struct Args {

@@ -12,6 +12,7 @@ use fil_post::operation::NextTools;
 
 use crate::coordinates::{Coordinates, coordinates};
 use crate::memory::Memory;
+use crate::units;
 use crate::written::Written;
 
 /// Records NEXTF looks through for the next motion.
@@ -142,7 +143,7 @@ impl<'r> Source<'r> {
     /// The unit that a CL text tells by the unit of its feeds; to be asked before it is read.
     pub fn told_unit(&mut self) -> Option<Unit> {
         let Stream::Cl(reader) = &mut self.reader else { return None };
-        reader.told_unit().map(|word| if word == words::INCHES { Unit::Inch } else { Unit::Mm })
+        reader.told_unit().map(units::of_word)
     }
 
     /// The splines that were read as lines so far.

@@ -1,5 +1,6 @@
 //! The unit of a run: what the CL file says, else what the user or the machine does.
 
+use fil_cl::{WordId, words};
 use fil_diag::Result;
 use fil_machine::{Commons, Unit};
 use fil_post::errors::PostCode;
@@ -36,6 +37,11 @@ pub fn unit_named(name: &str) -> Option<Unit> {
         "inch" => Some(Unit::Inch),
         _ => None,
     }
+}
+
+/// The unit that a word of CL files names.
+pub(crate) fn of_word(word: WordId) -> Unit {
+    if word == words::INCHES { Unit::Inch } else { Unit::Mm }
 }
 
 /// The unit that is known before the CL file is read; `told`: by the unit of its feeds.

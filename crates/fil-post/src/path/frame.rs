@@ -126,12 +126,16 @@ pub(super) fn knows_rotary(control: &Control) -> bool {
     })
 }
 
-/// Where X, Y and Z stand in another frame is not known; the rotary axes stay.
-pub(super) fn forget_positions(control: &mut Control, knows_rotary: bool) {
-    for number in AxisSet::ROTARY.numbers().filter(|_| knows_rotary) {
+/// The rotary axes stand where they were, whatever begins or ends around them.
+pub(super) fn keep_rotary(control: &mut Control) {
+    for number in AxisSet::ROTARY.numbers() {
         let letter = control.tables.axis(number).letter;
         control.state.trust(letter);
     }
+}
+
+/// Where X, Y and Z stand in another frame is not known.
+pub(super) fn forget_positions(control: &mut Control) {
     for number in AxisSet::LINEAR.numbers() {
         let letter = control.tables.axis(number).letter;
         control.commons.set_last_output(letter, EMPTY);
@@ -153,7 +157,10 @@ pub fn end(control: &mut Control) -> Result<()> {
     let slides = height::slides_in_frame(control);
     control.family().end_frame(control)?;
     control.state.set(modal::WORK_PLANE, false);
-    forget_positions(control, known);
+    if known {
+        keep_rotary(control);
+    }
+    forget_positions(control);
     match slides {
         Some(slides) => height::stand(control, slides),
         None => Ok(()),

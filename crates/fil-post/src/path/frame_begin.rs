@@ -85,9 +85,10 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<()> {
     };
     if let Some(turn) = turn {
         check_rounded(post.control.tables.chain(), turn, angles)?;
-        frame::forget_positions(&mut post.control, true);
+        frame::forget_positions(&mut post.control);
         post.control.tip.frame = Some((turn, angles));
     }
+    frame::keep_rotary(&mut post.control);
     if post.control.tables.clamps && post.control.rotary.clamped != Some(true) {
         full_turn::clamp(&mut post.control, true)?;
     }

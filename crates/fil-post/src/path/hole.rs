@@ -72,9 +72,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     if post.control.tables.frame_output && frame_begin::turn_to(post, target, false)? {
         (cycle.initial, cycle.above, cycle.in_force) = (None, None, None);
     }
-    if post.control.tables.turns_at_top {
-        turn_at_top::go_up(post, target)?;
-    }
+    turn_at_top::go_up(post, target)?;
     post.control.family().ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
     post.control.ready_length()?;
     let (position, mut hole, solution) = locate(post, cycle, target)?;

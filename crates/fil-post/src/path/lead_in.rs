@@ -1,12 +1,11 @@
 //! A surface speed (G96) that begins behind the approach: until the first cut the spindle turns at
 //! the rev/min (G97) of the end of the first rapid motion.
 
-use std::mem::replace;
-
 use fil_diag::Result;
 use fil_machine::locations as loc;
 
 use super::rotary;
+use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::waiting::SurfaceSpeed;
 use crate::control::word_address::spindle;
@@ -78,9 +77,6 @@ pub(crate) fn end(control: &mut Control) -> Result<()> {
     write(control, waits.cause, Spindle::Turn(waits.turn))
 }
 
-fn write(control: &mut Control, cause: crate::cause::Cause, spindle: Spindle) -> Result<()> {
-    let own = replace(&mut control.block.cause, cause);
-    control.family().write(control, Operation::Spindle(spindle))?;
-    control.block.cause = own;
-    Ok(())
+fn write(control: &mut Control, cause: Cause, spindle: Spindle) -> Result<()> {
+    control.because(cause, |control| control.family().write(control, Operation::Spindle(spindle)))
 }

@@ -24,9 +24,7 @@ pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
         Operation::Linear(target, kind) => linear::carry_out(post, &target, kind),
         Operation::Arc(arc, target) => {
             arc::refuse_nearly_full(post, &arc, target)?;
-            if post.control.waiting.surface_speed.is_some() {
-                lead_in::end(&mut post.control)?;
-            }
+            lead_in::end(&mut post.control)?;
             if post.control.tables.mills() {
                 mill_turn::before_arc(post, &arc, target)?;
             }

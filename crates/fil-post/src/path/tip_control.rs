@@ -101,7 +101,7 @@ fn takes_vector(post: &Post, angles: [f64; 2], axis: Vector3<f64>) -> Result<boo
     PostCode::TipControl.err_with(message, vectors::SAY_ANGLES)
 }
 
-/// Begins tool-tip control. `point`, `axis`: the tool at the end of the first motion.
+/// Activates tool center point control; the first motion ends at `point` with the tool along `axis`.
 ///
 /// # Errors
 /// No tool whose length the control has; cutter compensation; tables that would turn

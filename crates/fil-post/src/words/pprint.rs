@@ -20,7 +20,8 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if !post.control.commons.read(loc::MESSAGE_TO_TAPE) {
         return Ok(());
     }
-    if post.control.commons.read(loc::MESSAGE_WAITS) {
+    // Behind a stop that waits a message waits too, so that both come in their order.
+    if post.control.commons.read(loc::MESSAGE_WAITS) || !post.control.tools.held.is_empty() {
         let cause = post.control.block.cause.whole();
         post.control.tools.held.push((Held::Message(text), cause));
         return Ok(());

@@ -7,8 +7,8 @@ use clap::Args;
 /// Arguments of `filpost studio`.
 #[derive(Debug, Args)]
 #[command(
-    after_long_help = "The page answers on this computer alone, to whoever has its address, and has no other files than \
-    those of the folder. It ends with Ctrl-C, or when its page is closed."
+    after_long_help = "The page works on this computer only, for anyone who has its address, and opens only the files in the \
+    folder. It ends with Ctrl-C, or when you close its page."
 )]
 pub struct StudioArgs {
     /// Folder of the post: machine.toml, post.fil, cases; it is made if it is not there

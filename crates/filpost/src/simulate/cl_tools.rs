@@ -30,8 +30,7 @@ pub struct ClTools {
 /// What the CL reader refuses.
 pub fn cl_tools(cl: &ClText<'_>, commons: &Commons) -> Result<ClTools, Error> {
     let mut reader = Reader::new(cl.text.bytes, cl.text.name, cl.options);
-    let told = reader.told_unit();
-    let told = told.map(|word| if word == w::INCHES { Unit::Inch } else { Unit::Mm });
+    let told = reader.told_unit().map(units::of_word);
     let known = units::known_before(cl.unit, told, commons).map_err(Error::Run)?;
     let mut reading = Reading {
         unit: known.map(|(unit, _)| mm_of(unit)),

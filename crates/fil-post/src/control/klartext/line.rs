@@ -1,11 +1,11 @@
 //! A line of Klartext on the tape, and its seconds.
 
 use fil_diag::Result;
-use fil_machine::locations as loc;
 
 use crate::cause::Cause;
 use crate::control::Control;
 pub use crate::control::line::{Line, feed, length, scaled_text};
+use crate::control::word_address::dwell;
 use crate::errors::PostCode;
 use crate::noted::TEXT;
 
@@ -39,12 +39,7 @@ pub fn put_more(control: &mut Control, text: &str, cause: Cause) -> Result<()> {
 /// # Errors
 /// Longer than the control waits.
 pub fn seconds(control: &mut Control, asked: f64) -> Result<String> {
-    let low = control.commons.dbl_opt(loc::DWELL_SECONDS_MIN).unwrap_or(0.0);
-    let high = control.commons.dbl_opt(loc::DWELL_SECONDS_MAX).filter(|max| *max > 0.0);
-    let within = asked.max(low).min(high.unwrap_or(f64::MAX));
-    if within != asked {
-        control.warnings.add(PostCode::Clamped, format!("dwell {asked} became {within}"));
-    }
+    let within = dwell::seconds_within(control, asked);
     if within > LONGEST_DWELL {
         return PostCode::Family
             .err(format!("a dwell of {within} s; a TNC waits {LONGEST_DWELL} s at most"));

@@ -13,7 +13,7 @@ use fil_machine::modes::{FeedMode, INCH, Plane};
 use fil_machine::rounding::Rounding;
 
 use crate::block::named;
-use crate::control::word_address::{modes, motion, spindle};
+use crate::control::word_address::{dwell, modes, motion, spindle};
 use crate::control::{Control, length_plane, line, tap};
 use crate::control_state::modal;
 use crate::errors::PostCode;
@@ -318,12 +318,7 @@ fn seconds(control: &mut Control, asked: f64) -> Result<String> {
     if asked <= 0.0 {
         return Ok("0".to_string());
     }
-    let low = control.commons.dbl_opt(loc::DWELL_SECONDS_MIN).unwrap_or(0.0);
-    let high = control.commons.dbl_opt(loc::DWELL_SECONDS_MAX).filter(|max| *max > 0.0);
-    let within = asked.max(low).min(high.unwrap_or(f64::MAX));
-    if within != asked {
-        control.warnings.add(PostCode::Clamped, format!("dwell {asked} became {within}"));
-    }
+    let within = dwell::seconds_within(control, asked);
     let text = format!("{within:.SECONDS$}");
     let written: f64 = text.parse().unwrap_or(0.0);
     if (written - within).abs() > 0.01 * within {

@@ -119,8 +119,12 @@ fn waits_turns(control: &Control) -> bool {
 /// are), brought within its range.
 fn in_seconds(control: &mut Control, seconds: f64) -> f64 {
     let factor = control.commons.dbl_opt(loc::DWELL_UPM_FACTOR).filter(|factor| *factor > 0.0);
+    seconds_within(control, seconds) * factor.unwrap_or(1.0)
+}
+
+/// Seconds brought within the range of the machine.
+pub(in crate::control) fn seconds_within(control: &mut Control, seconds: f64) -> f64 {
     within(control, seconds, (loc::DWELL_SECONDS_MIN, loc::DWELL_SECONDS_MAX))
-        * factor.unwrap_or(1.0)
 }
 
 /// Turns of the spindle as the seconds that they take.

@@ -441,9 +441,8 @@ pub(super) fn surface_in_unit(speed: SpindleSpeed, metric: bool) -> Option<f64> 
     }
 }
 
-/// The rev/min of a surface speed at a radius, mm or inch: no more than the highest speed that is
-/// named or in force. `None` at the axis of the spindle where none is, and for a speed that is none
-/// of the surface.
+/// The rpm of a constant surface speed at a radius, mm or inch, limited by `limit` or by the speed
+/// limit in force. `None` on the spindle axis without a limit, and for a speed in rpm.
 pub fn turns_at(
     control: &Control,
     turn: &SpindleTurn,
