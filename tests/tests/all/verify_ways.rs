@@ -320,3 +320,15 @@ fn a_way_up_in_the_frame_of_the_machine_before_a_tilted_frame_agrees() {
         assert!(said.contains("goes to a point of the machine"), "{new}: {said}");
     }
 }
+
+/// Centers of a program that another post has made may have no more digits than its points.
+#[test]
+fn a_center_is_as_exact_as_the_ends_of_its_arc() {
+    let cases = nc_cases::all();
+    let name = "corpus/klartext/helices";
+    let case = cases.iter().find(|case| case.name == name).expect(name);
+    let written = "CC X-13.3333 Y+0";
+    assert_eq!(said(case, written, "CC X-13.333 Y+0"), "");
+    let found = said(case, written, "CC X-13.3345 Y+0");
+    assert!(found.contains("the center of the arc is off in X"), "{found}");
+}

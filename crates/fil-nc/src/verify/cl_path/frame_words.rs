@@ -147,7 +147,7 @@ impl State {
         let rotary = forward.rotaries()[index].as_ref()?;
         let is_limited = rotary.is_limited();
         let way = self.way_of_table(record);
-        let stood = self.frame.words.turned[index];
+        let stood = self.frame.words.turned[index].or_else(|| self.zero_of(forward, index));
         let by = angle * way.unwrap_or(1.0);
         let (angle, way) = match (record.has(w::INCR), way) {
             (true, None) => (stood? + by, TableWay::Number),
@@ -174,6 +174,15 @@ impl State {
             }
         }
         Some(vec![ExpectedStep::Turn { index, angle, way }])
+    }
+
+    /// Zero for a rotary axis that no record has turned and that holds the tool as the points
+    /// have it at zero alone; `None` for one that may be at any angle then.
+    fn zero_of(&self, forward: &Forward, index: usize) -> Option<f64> {
+        let mut quarter = [0.0; 2];
+        quarter[index] = 90.0;
+        let is_upright = |angles| (forward.axis(angles) - self.tool.axis).norm() < 1e-9;
+        (!self.tool.multax && is_upright([0.0; 2]) && !is_upright(quarter)).then_some(0.0)
     }
 
     /// INSERT: a table that its block turns stays there, and points without a tool axis are

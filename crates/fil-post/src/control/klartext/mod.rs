@@ -108,12 +108,12 @@ fn compensate(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
             .err("CUTCOM in another plane than XY: the tool axis of TOOL CALL is Z");
     }
     if let Some((offset, _)) = wanted.offset {
-        let of_tool = control.state.get(modal::TOOL).is_some_and(|tool| tool as f64 == offset);
-        if !of_tool && wanted.side != Compensation::Off {
+        let tool = control.state.get(modal::TOOL);
+        if tool.is_none_or(|tool| tool as f64 != offset) && wanted.side != Compensation::Off {
             let message = format!(
                 "CUTCOM with offset {offset}: RL and RR take the radius of the tool that was called"
             );
-            own_offsets::leave_out(control, offset, &message)?;
+            own_offsets::leave_out(control, tool, offset, &message)?;
         }
     }
     control.asked = wanted.side;

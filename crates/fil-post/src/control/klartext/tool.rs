@@ -23,7 +23,7 @@ pub fn take_own_offset(control: &mut Control, wanted: &mut ToolChange) -> Result
     if wanted.offset_given && wanted.offset != wanted.tool {
         let offset = wanted.offset;
         let message = format!("LOADTL asks for offset {offset}: the length comes with the tool");
-        own_offsets::leave_out(control, offset as f64, &message)?;
+        own_offsets::leave_out(control, Some(wanted.tool), offset as f64, &message)?;
         wanted.offset = wanted.tool;
     }
     Ok(())

@@ -30,7 +30,7 @@ use super::line::Line;
 use super::word_address::dwell;
 use super::{Control, own_offsets, word_address};
 use crate::control::needs::Act;
-use crate::control_state::Compensation;
+use crate::control_state::{Compensation, modal};
 use crate::errors::PostCode;
 use crate::operation::{CutterCompensation, Dwell, Operation};
 
@@ -100,7 +100,8 @@ fn compensate(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
                 "CUTCOM with offset {offset}: D{offset} would choose another cutting edge with \
                  its length; OSETNO of LOADTL chooses it"
             );
-            own_offsets::leave_out(control, offset, &message)?;
+            let tool = control.state.get(modal::TOOL);
+            own_offsets::leave_out(control, tool, offset, &message)?;
         }
     }
     word_address::write(

@@ -25,7 +25,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
             "LOADTL asks for offset {edge}: D names one of the cutting edges 1 to {EDGES} of the \
              tool"
         );
-        own_offsets::leave_out(control, edge as f64, &message)?;
+        own_offsets::leave_out(control, Some(wanted.tool), edge as f64, &message)?;
         edge = 1;
     }
     words::tool_blocks(control, wanted.tool)?;
