@@ -21,6 +21,7 @@ pub(super) fn go_up(post: &mut Post, target: Target) -> Result<()> {
         return Ok(());
     }
     if rapid_lean::is_away(&post.control) {
+        unwind(post);
         return Ok(());
     }
     let (position, _) = rotary::position_of(post, target)?;
@@ -28,4 +29,13 @@ pub(super) fn go_up(post: &mut Post, target: Target) -> Result<()> {
         return Ok(());
     }
     way_home::go_up(post)
+}
+
+/// Turns axes that the points turn by their tool axes (MULTAX) to the positions nearest to zero,
+/// which no tool before has a say in: three-axis work is done at zero, and the program can be
+/// begun at each tool.
+fn unwind(post: &mut Post) {
+    if post.path.multax.is_some() && post.path.transformation.is_none() {
+        post.path.turning.chosen.get_or_insert([0.0; 2]);
+    }
 }
