@@ -518,3 +518,18 @@ fn blocks_of_the_settings_of_other_controls_are_read() {
     let said = found("fanuc-lathe", &[], &cl, nc);
     assert!(said.contains("m/min"), "{said}");
 }
+
+#[test]
+fn a_dwell_by_x_beside_milliseconds_in_p_is_read() {
+    let cl =
+        "RAPID; GOTO / 0, 0, 50; FEDRAT / 100, MMPM; GOTO / 0, 0, 5; DELAY / 2; GOTO / 9, 0, 5";
+    let nc = |dwell: &str| {
+        format!(
+            "%\nO0001 (T)\nG21 G90 G94 G17\nG0 X0. Y0.\nZ50.\nG1 Z5. F100.\n{dwell}\nX9.\nM30\n%\n"
+        )
+    };
+    let found = |dwell: &str| back_check::found("fanuc-mill", &[], cl, &nc(dwell));
+    assert_eq!(found("G4 P2000"), "");
+    assert_eq!(found("G4 X2."), "");
+    assert!(found("G4 X3.").contains("dwell"), "{}", found("G4 X3."));
+}

@@ -588,3 +588,11 @@ fn a_rapid_that_bends_along_a_leaning_head_is_found() {
     Case { ready: "fanuc-5x-head", settings: bent, cl, nc: &nc }
         .asks_for("rapid by several axes while a head leans the tool");
 }
+
+#[test]
+fn a_first_turn_by_an_angle_counts_from_zero_under_an_upright_tool() {
+    let cl = "RAPID; GOTO / 0, 0, 50; ROTATE / AAXIS, INCR, -90; RAPID; GOTO / 0, 0, 50";
+    let nc = milled("G0 X0. Y0.; A0.; G43 Z50. H1; A-90.; Y-50.; Z0.");
+    Case { ready: "fanuc-mill-a", settings: &["rotary.table_words=2"], cl, nc: &nc }
+        .agrees_but_not_with(("A-90.", "A-80."), "no rapid turn to -90 degrees");
+}

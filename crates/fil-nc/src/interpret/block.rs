@@ -273,11 +273,13 @@ impl State<'_> {
         Ok(())
     }
 
-    /// `G4 X1.` and `G4 U1.` of lathes wait seconds.
+    /// `G4 X1.` waits seconds on controls whose own word for it counts milliseconds, and on
+    /// lathes, where `G4 U1.` does too.
     fn dwell_by_x(&self, words: &mut Words) -> Result<Option<f64>, Fault> {
-        let is_usual =
-            words.has(self.dialect.letter(Role::Dwell)) || !self.dialect.counts_diameters();
-        if is_usual || !words.has_axes(self.dialect) {
+        let takes_x =
+            self.dialect.counts_diameters() || self.dialect.factor(Amount::Dwell) == MILLISECONDS;
+        let is_usual = words.has(self.dialect.letter(Role::Dwell));
+        if is_usual || !takes_x || !words.has_axes(self.dialect) {
             return Ok(None);
         }
         match words.take_axes(self.dialect)?[..] {
@@ -303,6 +305,9 @@ impl State<'_> {
         Ok(())
     }
 }
+
+/// Dwell units in a second of a control that counts milliseconds.
+const MILLISECONDS: f64 = 1000.0;
 
 /// `P2` to `P4`: the second to the fourth reference point, which is the second without it.
 fn check_point(words: &mut Words) -> Result<(), Fault> {

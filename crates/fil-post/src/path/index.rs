@@ -108,9 +108,7 @@ pub(crate) fn turns_by_points(post: &mut Post) {
 /// # Errors
 /// TRANS, ORIGIN or TRACUT moves the points too; a head that leans the tool.
 fn under_points(post: &Post, angles: [f64; 2], of: Statement) -> Result<Option<Transformation>> {
-    let transformation = post.path.transformation.as_ref();
-    let by_table = [Statement::Table, Statement::AuthorBlock];
-    let moves = transformation.is_some_and(|it| !by_table.contains(&it.of));
+    let moves = post.path.transformation.as_ref().is_some_and(|it| !it.undoes_tables());
     if moves || post.control.tables.input_shift() != Vector3::zeros() {
         return PostCode::WordForm.err(
             "ROTABL: TRANS, ORIGIN or the machine moves the points too, in an order left open",

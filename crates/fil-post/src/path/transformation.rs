@@ -37,6 +37,11 @@ impl Transformation {
         Point3::from(self.matrix * point.to_homogeneous())
     }
 
+    /// True where it undoes the turn of a table, so that the points are positions of the slides.
+    pub fn undoes_tables(&self) -> bool {
+        matches!(self.of, Statement::Table | Statement::AuthorBlock)
+    }
+
     /// The linear part, 3x3.
     pub fn linear(&self) -> Matrix3<f64> {
         self.matrix.fixed_columns::<3>(0).into_owned()

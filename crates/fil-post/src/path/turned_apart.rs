@@ -7,7 +7,7 @@ use fil_machine::FunctionCode;
 use fil_machine::axis_chain::Carries;
 use fil_machine::locations as loc;
 
-use super::{frame, rapid_lean};
+use super::{Transformation, frame, rapid_lean};
 use crate::control::Control;
 use crate::control_state::modal;
 use crate::errors::PostCode;
@@ -52,7 +52,9 @@ fn settle_turned(post: &mut Post, angles: [f64; 2]) -> Result<()> {
     if by_head && !post.path.turning.turned_with.lies_across {
         warn_of_length_across(post, angles);
     }
-    if by_table {
+    // Points that are those of the machine hold wherever the axis of the table lies.
+    let points_stay = post.path.transformation.as_ref().is_some_and(Transformation::undoes_tables);
+    if by_table && !points_stay {
         let zero = zero(&post.control);
         let with = &mut post.path.turning.turned_with;
         if with.zero.is_some() && zero.is_some() && with.zero != zero {
