@@ -72,7 +72,7 @@ fn file_name(rest: &str) -> Option<Found<'_>> {
 }
 
 /// The text runs to the end of the line or to a comment. `WORD =` without a
-/// second `=` sets a variable; `WORD/'…'` and `WORD/NAME,'…'` are ordinary lists.
+/// second `=` sets a variable; `WORD/'…'`, `WORD/NAME,'…'` and `WORD/(TEXT/…)` are ordinary lists.
 fn line_text(rest: &str) -> Option<Found<'_>> {
     let line_end = rest.find(['\r', '\n']).unwrap_or(rest.len());
     let line = &rest[..line_end];
@@ -90,7 +90,7 @@ fn line_text(rest: &str) -> Option<Found<'_>> {
     if text.is_empty() || text == "$" || text.starts_with(';') || assigned {
         return None;
     }
-    if text.starts_with('\'') || holds_quoted_item(text) {
+    if text.starts_with('\'') || holds_quoted_item(text) || holds_text_of_parts(text) {
         let found = Found { text: start..start, kind: TextKind::QuotedWithoutSlash, rest };
         return (!slash).then_some(found);
     }
@@ -106,6 +106,16 @@ fn holds_quoted_item(text: &str) -> bool {
     });
     let mut behind_first = items.map(str::trim).skip(1);
     behind_first.any(|item| item.len() > 1 && item.starts_with('\'') && item.ends_with('\''))
+}
+
+/// True where a nested TEXT puts the text together: `(TEXT/'T',…)`, which is no comment.
+fn holds_text_of_parts(text: &str) -> bool {
+    text.match_indices('(').any(|(at, _)| {
+        let behind = text[at + 1..].trim_start();
+        let word_end = behind.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(behind.len());
+        let (word, rest) = behind.split_at(word_end);
+        word.eq_ignore_ascii_case("TEXT") && rest.trim_start().starts_with('/')
+    })
 }
 
 /// What stands behind a `;` of a free text where that looks like a statement: a word
@@ -169,7 +179,17 @@ mod tests {
 
     #[test]
     fn ordinary_statements_are_left_alone() {
-        for rest in ["", "=5", " = 5", "/", "(1)=5", " ; A=1", "/'quoted',T"] {
+        for rest in [
+            "",
+            "=5",
+            " = 5",
+            "/",
+            "(1)=5",
+            " ; A=1",
+            "/'quoted',T",
+            "/(TEXT/CONVI,T,2)",
+            "/A,( text /B,2)",
+        ] {
             assert_eq!(after("PPRINT", rest), None, "{rest}");
         }
         assert_eq!(after("COOLNT", "/ON"), None);
