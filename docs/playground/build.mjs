@@ -1,42 +1,24 @@
-// Builds the page: node build.mjs MODULES FOLDER, where .ci/wasm has left the modules. Needs
-// the packages of package.json.
+// Builds the playground: node build.mjs MODULES FOLDER, where .ci/wasm has left the modules. Needs
+// the packages of the page of the studio (crates/filpost-studio/page).
 //
-// What comes out is one folder of static files. The page opens from a server or from a
-// disk, so nothing is fetched: the modules and the examples are scripts.
+// What comes out is one folder of static files: the page of the studio, the modules, and what is shown at first. The
+// page opens from a server or from a disk, so nothing is fetched: the modules and the examples are scripts.
 import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { build } from "esbuild";
 import { examples } from "./examples.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const [modules, folder] = process.argv.slice(2);
-
-const common = { bundle: true, minify: true, format: "iife", target: "es2022", legalComments: "eof" };
-
-/** `worker:FILE` is the text of a script with all that it imports. */
-const workers = {
-  name: "workers",
-  setup(host) {
-    host.onResolve({ filter: /^worker:/ }, ({ path, resolveDir }) => {
-      return { path: join(resolveDir, path.slice("worker:".length)), namespace: "worker" };
-    });
-    host.onLoad({ filter: /.*/, namespace: "worker" }, async ({ path }) => {
-      const made = await build({ ...common, entryPoints: [path], write: false });
-      return { contents: made.outputFiles[0].text, loader: "text" };
-    });
-  },
-};
+const page = join(here, "../../crates/filpost-studio/page/dist");
 
 mkdirSync(folder, { recursive: true });
-await build({
-  ...common,
-  entryPoints: [join(here, "playground.js")],
-  outfile: join(folder, "playground.js"),
-  plugins: [workers],
-  nodePaths: (process.env.NODE_PATH ?? "").split(":").filter(Boolean),
-});
-for (const name of ["index.html", "page.css"]) copyFileSync(join(here, name), join(folder, name));
+for (const name of ["studio.js", "studio.css", "view.js"]) copyFileSync(join(page, name), join(folder, name));
+const own = '<script src="studio.js"></script>';
+const before = ["filpost.wasm.js", "examples.js", "words.js"].map((name) => `<script src="${name}"></script>`);
+const html = readFileSync(join(page, "index.html"), "utf8");
+if (!html.includes(own)) throw new Error("the page of the studio has another script");
+writeFileSync(join(folder, "index.html"), html.replace(own, `${before.join("\n")}\n${own}`));
 
 for (const [name, key] of [["filpost", "bytes"], ["filpost-plot", "plotBytes"]]) {
   const letters = readFileSync(join(modules, `${name}.wasm`)).toString("base64");

@@ -1,7 +1,7 @@
 // Cases of the corpus as examples of the page: the tutorial and the published systems.
 import { existsSync, readFileSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
-import { parse } from "smol-toml";
+import { parse, stringify } from "smol-toml";
 
 /** Case folders and what the page calls them. */
 const CASES = [
@@ -36,14 +36,24 @@ function example(folder, title) {
     if (found[key] !== undefined) throw new Error(`${folder}: the page has no ${key}`);
   }
   const machine = found.machine
-    ? file(found.machine)
+    ? { name: "machine.toml", text: text(found.machine) }
     : { name: "machine.toml", text: `base = "${found.ready ?? "fanuc-mill"}"\n` };
   const kept = KEPT.filter((key) => found[key] !== undefined);
-  const options = Object.fromEntries(kept.map((key) => [key, found[key]]));
-  const fil = found.fil ?? [];
+  const fil = [found.fil ?? []].flat();
   const includes = fil.flatMap((name) => included(join(folder, name)));
   const expected = found.expect && existsSync(join(folder, found.expect)) ? text(found.expect) : null;
-  return { title, cl: file(found.cl), machine, fil: fil.map(file), includes, options, expected };
+  const own = {
+    cl: basename(found.cl), machine: "machine.toml", fil: fil.map((name) => basename(name)),
+    ...(expected === null ? {} : { expect: "expected.nc" }),
+    ...Object.fromEntries(kept.map((key) => [key, found[key]])),
+    origin: found.origin,
+  };
+  const files = [
+    machine, file(found.cl), ...fil.map(file), ...includes,
+    { name: "case.toml", text: stringify(own) },
+    ...(expected === null ? [] : [{ name: "expected.nc", text: expected }]),
+  ];
+  return { title, files, part: basename(found.cl), open: own.fil[0] ?? basename(found.cl), expected };
 }
 
 /** What a script includes, by the names that it says. */

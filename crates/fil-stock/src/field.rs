@@ -149,6 +149,11 @@ impl HeightField {
         })
     }
 
+    /// The lowest Z of the material, mm.
+    pub fn lowest(&self) -> f64 {
+        (0..self.grid.cells()).map(|cell| self.floor(cell)).fold(f64::INFINITY, f64::min)
+    }
+
     /// Volume of the material, mm³.
     pub fn volume(&self) -> f64 {
         let heights = (0..self.grid.cells()).map(|cell| self.top(cell) - self.floor(cell));

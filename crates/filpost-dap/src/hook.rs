@@ -1,6 +1,7 @@
 //! The debugger as the run calls it: decides where to stand still, and serves the requests
 //! that look at the run while it does.
 
+use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -41,12 +42,35 @@ pub enum Ask {
     Go(Goal),
     /// Answer a request that looks at the run or sets something in it.
     Answer(Value),
+    /// Tell all that there is to see, with the values of these expressions.
+    Show(Vec<String>),
+}
+
+/// Where what is asked of a run comes from.
+pub enum Asks {
+    /// From a client, in another thread, for as long as it wants the run.
+    Client(Receiver<Ask>),
+    /// It was all known before: the run ends behind the last.
+    Known(VecDeque<Ask>),
+}
+
+impl Asks {
+    /// What is asked of a run that stands still.
+    ///
+    /// # Errors
+    /// The run is not wanted any more.
+    fn next(&mut self) -> Result<Ask, Box<Diag>> {
+        match self {
+            Asks::Client(asks) => asks.recv().map_err(|_| stopped()),
+            Asks::Known(asks) => asks.pop_front().ok_or_else(stopped),
+        }
+    }
 }
 
 /// The debugger of one run.
 pub struct Hook {
     shared: Arc<Shared>,
-    asks: Receiver<Ask>,
+    asks: Asks,
     /// Number of the run.
     run: u64,
     goal: Goal,
@@ -72,6 +96,16 @@ pub struct Files {
     pub cl: PathBuf,
     /// The FIL files, by their numbers.
     pub fil: Vec<PathBuf>,
+    /// Their names in messages.
+    pub names: Vec<String>,
+}
+
+impl Files {
+    /// The path of a FIL file by its name in messages.
+    pub fn path_of(&self, name: &str) -> PathBuf {
+        let number = self.names.iter().position(|known| known == name);
+        number.map_or_else(|| PathBuf::from(name), |number| self.fil[number].clone())
+    }
 }
 
 /// Why a run stands still.
@@ -89,13 +123,7 @@ impl Stop {
 
 impl Hook {
     /// A debugger for the run of that number.
-    pub fn new(
-        shared: Arc<Shared>,
-        asks: Receiver<Ask>,
-        run: u64,
-        goal: Goal,
-        files: Files,
-    ) -> Self {
+    pub fn new(shared: Arc<Shared>, asks: Asks, run: u64, goal: Goal, files: Files) -> Self {
         shared.breakpoints().begin_again();
         Hook {
             shared,
@@ -124,14 +152,14 @@ impl Hook {
     }
 
     /// The place a step back leads to: before the last statement or record.
-    fn before(&self) -> Option<Tick> {
+    pub fn before(&self) -> Option<Tick> {
         let Tick { number, is_over } = self.tick;
         let number = if is_over { number } else { number.saturating_sub(1) };
         (number > 0).then_some(Tick { number, is_over: false })
     }
 
     /// The place where the block before was written: behind what wrote it.
-    fn before_block(&self) -> Option<Tick> {
+    pub fn before_block(&self) -> Option<Tick> {
         self.written.iter().rev().find(|tick| **tick < self.tick).copied()
     }
 
@@ -285,27 +313,35 @@ impl Hook {
         }
         self.shared.event("stopped", body);
         loop {
-            match self.asks.recv() {
-                Ok(Ask::Answer(request)) => inspect::answer(&request, self, state),
-                Ok(Ask::Go(goal)) => {
+            let ask = self.asks.next().inspect_err(|_| {
+                if let Asks::Known(_) = self.asks {
+                    // The end that this brings is no error to stop at.
+                    self.shared.run.store(u64::MAX, Ordering::SeqCst);
+                }
+            });
+            match ask? {
+                Ask::Answer(request) => inspect::answer(&request, self, state),
+                Ask::Show(watched) => {
+                    self.shared.event("shown", inspect::show(&watched, self, state));
+                }
+                Ask::Go(goal) => {
                     self.goal = goal;
                     self.from = self.level;
                     return Ok(());
                 }
-                // The session has let go of this run.
-                Err(_) => return Err(stopped()),
             }
         }
     }
 
     /// A request that came as the run went on is not left without an answer.
     fn answer_late(&self) -> Result<(), Box<Diag>> {
+        let Asks::Client(asks) = &self.asks else { return Ok(()) };
         loop {
-            match self.asks.recv_timeout(Duration::ZERO) {
+            match asks.recv_timeout(Duration::ZERO) {
                 Ok(Ask::Answer(request)) => {
                     self.shared.respond(&request, Err("the run goes on".to_string()));
                 }
-                Ok(Ask::Go(_)) => {}
+                Ok(Ask::Go(_) | Ask::Show(_)) => {}
                 Err(RecvTimeoutError::Timeout) => return Ok(()),
                 Err(RecvTimeoutError::Disconnected) => return Err(stopped()),
             }

@@ -6,7 +6,7 @@ use filpost::debug::{DebugState, Held, evaluate, shown};
 use filpost::locations::Location;
 use serde_json::{Value, json};
 
-use crate::breakpoints::{watch_id, whole};
+use crate::breakpoints::watch_id;
 use crate::edits::{Edit, NewWord};
 use crate::hook::Hook;
 
@@ -44,10 +44,36 @@ pub fn answer(request: &Value, hook: &mut Hook, state: &mut DebugState<'_, '_>) 
     hook.shared().respond(request, answer);
 }
 
+/// All that there is to see of a run that stands still: where it is, its values by scope, and the
+/// values of expressions.
+pub fn show(watched: &[String], hook: &Hook, state: &DebugState<'_, '_>) -> Value {
+    let mut scopes = scopes(state);
+    for scope in scopes["scopes"].as_array_mut().into_iter().flatten() {
+        let mut list = variables(scope["variablesReference"].as_u64().unwrap_or(0), state);
+        for value in &mut list {
+            let reference = value["variablesReference"].as_u64().unwrap_or(0);
+            if reference != 0 {
+                value["elements"] = elements(reference, state).into();
+            }
+        }
+        scope["variables"] = list.into();
+    }
+    let watched = watched.iter().map(|text| match evaluate(text, state) {
+        Ok(value) => json!({ "expression": text, "value": shown(&value) }),
+        Err(diag) => json!({ "expression": text, "why": diag.message }),
+    });
+    json!({
+        "frames": stack(hook, state)["stackFrames"],
+        "scopes": scopes["scopes"],
+        "watched": watched.collect::<Vec<_>>(),
+        "blocks": state.blocks(),
+    })
+}
+
 fn stack(hook: &Hook, state: &DebugState<'_, '_>) -> Value {
     let mut frames = Vec::new();
     for frame in state.fil.stack() {
-        let path = whole(std::path::Path::new(&frame.place.file));
+        let path = hook.files().path_of(&frame.place.file);
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
         frames.push(json!({
             "id": frames.len() + 1,

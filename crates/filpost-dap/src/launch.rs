@@ -41,8 +41,9 @@ pub fn launch(arguments: &Value) -> Result<Launched, String> {
     };
     let program = Programs::for_debugging().get(&case).map_err(|error| sentences(&error))?;
     let cl = case.cl_text().map_err(|error| sentences(&error))?;
-    let fil = program.fil_files().iter().map(|name| whole(Path::new(name))).collect();
-    let files = Files { cl: whole(&case.folder.join(&case.file.cl)), fil };
+    let names = program.fil_files();
+    let fil = names.iter().map(|name| whole(Path::new(name))).collect();
+    let files = Files { cl: whole(&case.folder.join(&case.file.cl)), fil, names };
     let output = text("output").map(|name| cwd.join(name));
     if let Some(output) = &output {
         let mut read = case.files().into_iter().chain(files.fil.iter().cloned());

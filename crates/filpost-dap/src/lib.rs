@@ -5,7 +5,8 @@
 //! back, variables, commons, the blocks as they come.
 //!
 //! **Model.** [`serve_stdio`] is what `filpost dap` runs; [`serve`] takes any input and output.
-//! Lines and columns count from 1.
+//! [`look`] is for hosts without threads, such as a page: it runs a program in memory to one place and tells
+//! what there is to see. Lines and columns count from 1.
 //!
 //! ```no_run
 //! fn main() -> Result<(), String> {
@@ -21,23 +22,35 @@
 //! Going back is a new run from the start to the place: a run with the same input does the
 //! same.
 
+// What only the protocol uses is left out by the linker of a page.
+#![cfg_attr(not(feature = "files"), allow(dead_code))]
+
 mod breakpoints;
 mod edits;
 mod hook;
 mod inspect;
+#[cfg(feature = "files")]
 mod launch;
+mod once;
+mod places;
+#[cfg(feature = "files")]
 mod session;
 mod shared;
+#[cfg(feature = "files")]
 mod wire;
 
+#[cfg(feature = "files")]
 use std::io::{BufRead, Write};
 
+pub use once::look;
+#[cfg(feature = "files")]
 pub use session::Session;
 
 /// Serves one client over standard input and output until it disconnects.
 ///
 /// # Errors
 /// What went wrong with the connection, in a sentence.
+#[cfg(feature = "files")]
 pub fn serve_stdio() -> Result<(), String> {
     serve(std::io::stdin().lock(), std::io::stdout())
 }
@@ -46,6 +59,7 @@ pub fn serve_stdio() -> Result<(), String> {
 ///
 /// # Errors
 /// What went wrong with the connection, in a sentence.
+#[cfg(feature = "files")]
 pub fn serve(mut input: impl BufRead, output: impl Write + Send + 'static) -> Result<(), String> {
     let mut session = Session::new(Box::new(output));
     while let Some(request) = wire::read(&mut input)? {

@@ -1,7 +1,7 @@
 //! One session: requests of the client, and the runs it has had.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex};
@@ -11,11 +11,13 @@ use filpost::debug::SharedDebugger;
 use filpost::files;
 use serde_json::{Value, json};
 
-use crate::breakpoints::{What, When, is_part, named, same_file, told, watched_by};
+use crate::breakpoints::{What, When, named, told, watched_by};
 use crate::edits::Tick;
-use crate::hook::{Ask, Goal, Hook};
+use crate::hook::{Ask, Asks, Goal, Hook};
 use crate::launch::{Launched, launch, sentences};
+use crate::places::{kind_of, known, line_of};
 use crate::shared::Shared;
+use crate::wire;
 
 /// A session with one client.
 pub struct Session {
@@ -42,9 +44,10 @@ const OF_THE_RUN: &[&str] = &[
 
 impl Session {
     /// A session that answers to this output.
-    pub fn new(output: Box<dyn Write + Send>) -> Self {
+    pub fn new(mut output: Box<dyn Write + Send>) -> Self {
+        let out = move |message| wire::write(&mut output, &message);
         Session {
-            shared: Arc::new(Shared::new(output)),
+            shared: Arc::new(Shared::new(Box::new(out))),
             launched: None,
             stop_on_entry: false,
             no_debug: false,
@@ -139,7 +142,13 @@ impl Session {
         }
         let (asks, asked) = channel();
         let shared = Arc::clone(&self.shared);
-        let hook = Hook::new(Arc::clone(&shared), asked, number, goal, launched.files.clone());
+        let hook = Hook::new(
+            Arc::clone(&shared),
+            Asks::Client(asked),
+            number,
+            goal,
+            launched.files.clone(),
+        );
         let debugger: SharedDebugger = Arc::new(Mutex::new(hook));
         let thread = std::thread::spawn(move || {
             let ended = launched.run(&debugger);
@@ -202,7 +211,7 @@ impl Session {
         let asked = arguments.get("breakpoints").and_then(Value::as_array);
         let asked: Vec<&Value> = asked.into_iter().flatten().collect();
         let launched = self.launched.clone().ok_or("nothing is launched")?;
-        let kind = kind_of(&path, &launched);
+        let kind = kind_of(&path, &launched.files, launched.nc.as_deref(), launched.program());
         let (mut new, mut answers) = (Vec::new(), Vec::new());
         for one in asked {
             let line = one.get("line").and_then(Value::as_u64).unwrap_or(0);
@@ -231,13 +240,7 @@ impl Session {
     fn set_function_breakpoints(&mut self, arguments: &Value) -> Answer {
         let is_one = |what: &What| matches!(what, What::Record(_) | What::Block(_) | What::Part(_));
         let launched = self.launched.clone().ok_or("nothing is launched")?;
-        let parts = launched.program().outline().parts;
-        let read = |name: &str| match named(name)? {
-            What::Part(wanted) if !parts.iter().any(|part| is_part(&wanted, &part.title)) => {
-                Err(format!("there is no {wanted} in the FIL of this run"))
-            }
-            what => Ok(what),
-        };
+        let read = |name: &str| known(named(name)?, launched.program());
         Ok(self.set_named(arguments, "name", is_one, read))
     }
 
@@ -271,64 +274,6 @@ impl Session {
             Err(message) => told(None, None, Some(message)),
         });
         json!({ "breakpoints": answers.collect::<Vec<_>>() })
-    }
-}
-
-/// Which file breakpoints of lines stand in.
-enum Kind {
-    /// A FIL file, with its lines that run.
-    Fil(PathBuf, Vec<u32>),
-    Cl,
-    Nc,
-    /// No file of this run.
-    Other,
-}
-
-fn kind_of(path: &Path, launched: &Launched) -> Kind {
-    if same_file(path, &launched.files.cl) {
-        return Kind::Cl;
-    }
-    if launched.nc.as_ref().is_some_and(|nc| same_file(path, nc)) {
-        return Kind::Nc;
-    }
-    let found = launched.files.fil.iter().position(|fil| same_file(fil, path));
-    let Some(number) = found else { return Kind::Other };
-    let statements = launched.program().outline().statements;
-    let of_file = statements.iter().filter(|(_, place)| usize::from(place.file) == number);
-    let mut lines: Vec<u32> = of_file.map(|(_, place)| place.line).collect();
-    lines.sort_unstable();
-    Kind::Fil(launched.files.fil[number].clone(), lines)
-}
-
-impl Kind {
-    /// What a breakpoint in a line stops at; `None` where nothing runs.
-    fn place(&self, line: u64) -> Option<What> {
-        match self {
-            Kind::Fil(path, lines) => {
-                let wanted = u32::try_from(line).ok()?;
-                let line = lines.iter().find(|line| **line >= wanted)?;
-                Some(What::Fil(path.clone(), *line))
-            }
-            Kind::Cl => u32::try_from(line).ok().map(What::Cl),
-            Kind::Nc => Some(What::Nc(line)),
-            Kind::Other => None,
-        }
-    }
-
-    fn has(&self, what: &What) -> bool {
-        match (self, what) {
-            (Kind::Fil(path, _), What::Fil(other, _)) => path == other,
-            (Kind::Cl, What::Cl(_)) | (Kind::Nc, What::Nc(_)) => true,
-            _ => false,
-        }
-    }
-}
-
-fn line_of(what: &What) -> Option<u64> {
-    match what {
-        What::Fil(_, line) | What::Cl(line) => Some(u64::from(*line)),
-        What::Nc(line) => Some(*line),
-        _ => None,
     }
 }
 

@@ -1,6 +1,5 @@
 //! What the thread that reads requests and the thread of the run share.
 
-use std::io::Write;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -8,11 +7,13 @@ use serde_json::{Value, json};
 
 use crate::breakpoints::Breakpoints;
 use crate::edits::{Edits, Tick};
-use crate::wire;
+
+/// Where messages go: to a client, or to whoever asked for one look.
+pub type Out = Box<dyn FnMut(Value) + Send>;
 
 /// The connection to the client and what is set by it.
 pub struct Shared {
-    out: Mutex<(Box<dyn Write + Send>, u64)>,
+    out: Mutex<(Out, u64)>,
     breakpoints: Mutex<Breakpoints>,
     edits: Mutex<Edits>,
     ways_back: Mutex<[Option<Tick>; 2]>,
@@ -30,7 +31,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 impl Shared {
     /// Nothing is set.
-    pub fn new(out: Box<dyn Write + Send>) -> Self {
+    pub fn new(out: Out) -> Self {
         Shared {
             out: Mutex::new((out, 0)),
             breakpoints: Mutex::default(),
@@ -99,6 +100,6 @@ impl Shared {
         let mut out = lock(&self.out);
         out.1 += 1;
         message["seq"] = out.1.into();
-        wire::write(&mut out.0, &message);
+        (out.0)(message);
     }
 }

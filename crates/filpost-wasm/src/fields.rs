@@ -57,6 +57,12 @@ impl Fields {
         value.as_u64().map(Some).ok_or_else(|| wrong(key, "a whole number", &value))
     }
 
+    /// A value of any kind, where there is one.
+    #[cfg(feature = "debug")]
+    pub fn value(&mut self, key: &str) -> Option<Value> {
+        self.take(key)
+    }
+
     /// A list; empty where it is left out.
     pub fn list(&mut self, key: &str) -> Result<Vec<Value>, Misuse> {
         match self.take(key) {

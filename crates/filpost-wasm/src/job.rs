@@ -52,6 +52,11 @@ impl Job {
 
     /// The program of machine and FIL.
     pub fn program(&self) -> Result<Program, Fault> {
+        Ok(self.builder()?.build()?)
+    }
+
+    /// A builder with machine and FIL.
+    pub fn builder(&self) -> Result<Builder, Fault> {
         let setup = |diag: Box<Diag>| Error::Setup(vec![*diag]);
         let mut builder = self.machine.builder().strict(self.strict);
         for name in &self.allow {
@@ -71,7 +76,7 @@ impl Job {
                 Moment::parse(text).ok_or_else(|| Misuse(format!("clock: {text} is no moment")))?;
             builder = builder.clock(Clock::Fixed(moment));
         }
-        Ok(self.with_includes(builder).build()?)
+        Ok(self.with_includes(builder))
     }
 
     fn with_includes(&self, builder: Builder) -> Builder {

@@ -15,6 +15,10 @@
 
 #[cfg(target_family = "wasm")]
 mod border;
+#[cfg(feature = "debug")]
+mod coverage;
+#[cfg(feature = "debug")]
+mod debugger;
 mod diagnostics;
 #[cfg(feature = "post")]
 mod editor;
@@ -94,6 +98,10 @@ fn read(request: Value) -> Result<Value, Misuse> {
         "columns" => plot::Plot::read(fields)?.columns(),
         #[cfg(feature = "simulate")]
         "simulate" => simulate::Simulate::read(fields)?.run(),
+        #[cfg(feature = "debug")]
+        "debug" => debugger::debug(fields)?,
+        #[cfg(feature = "debug")]
+        "cover" => coverage::cover(fields)?,
         #[cfg(feature = "post")]
         "findings" => Edited::read(fields)?.findings(),
         #[cfg(feature = "post")]

@@ -2,7 +2,7 @@
 
 use filpost::cl::reader::Options;
 use filpost::plot::{ClText, Text};
-use filpost::simulate::{as_json, cl_tools};
+use filpost::simulate::{Setup, as_json, cl_tools};
 use filpost::stock::errors::StockCode;
 use filpost::stock::{Job, Mesh, Offsets, Stock, Tool, Tools, length};
 use filpost::{Error, simulate};
@@ -20,8 +20,11 @@ pub(crate) struct Simulate {
     machine: MachineOf,
     nc: String,
     cl: Option<Named>,
-    stock: String,
+    setup: Option<Named>,
+    stock: Option<String>,
     part: Option<Named>,
+    /// The meshes that the setup file names.
+    meshes: Vec<Named>,
     tools: Vec<String>,
     grid: Option<String>,
     heights: bool,
@@ -33,8 +36,10 @@ impl Simulate {
             machine: MachineOf::read(&mut fields)?,
             nc: fields.needed("nc")?,
             cl: fields.file("cl")?,
-            stock: fields.needed("stock")?,
+            setup: fields.file("setup")?,
+            stock: fields.text("stock")?,
             part: fields.file("part")?,
+            meshes: fields.files("meshes")?,
             tools: fields.texts("tools")?,
             grid: fields.text("grid")?,
             heights: fields.flag("heights")?,
@@ -54,13 +59,22 @@ impl Simulate {
     fn cut(&self) -> Result<Value, Error> {
         let commons = self.machine.builder().build_machine()?;
         let wrong = |what: String| Error::Run(StockCode::BadDescription.diag(what));
-        let stock = Stock::read(&self.stock).map_err(Error::Run)?;
-        let stock = stock.ok_or_else(|| wrong(format!("`{}` is no stock", self.stock)))?;
+        let setup = self.setup.as_ref().map(|file| Setup::read(&file.name, &file.text));
+        let setup = setup.transpose()?.unwrap_or_default();
+        let given = self.stock.as_ref().or(setup.stock.as_ref());
+        let given = given.ok_or_else(|| wrong("there is no stock".into()))?;
+        let stock = match Stock::read(given).map_err(Error::Run)? {
+            Some(stock) => stock,
+            None => Stock::Mesh(self.mesh(given)?),
+        };
         let grid = self.grid.as_deref().map(|grid| {
             length(grid).ok_or_else(|| wrong(format!("grid `{grid}` is no length above 0")))
         });
-        let part = self.part.as_ref().map(|part| Mesh::read(&part.name, part.text.as_bytes()));
-        let part = part.transpose().map_err(Error::Run)?;
+        let part = match (&self.part, &setup.part) {
+            (Some(part), _) => Some(read_mesh(part)?),
+            (None, Some(name)) => Some(self.mesh(name)?),
+            (None, None) => None,
+        };
         let mut tools = match &self.cl {
             None => Tools::new(),
             Some(Named { name, text }) => {
@@ -68,6 +82,7 @@ impl Simulate {
                 cl_tools(&ClText { text, options: Options::default(), unit: None }, &commons)?.tools
             }
         };
+        tools.extend(setup.tools);
         for tool in &self.tools {
             let given = tool
                 .split_once('=')
@@ -80,8 +95,8 @@ impl Simulate {
             stock: &stock,
             tools: &tools,
             part: part.as_ref(),
-            part_tolerance: PART_TOLERANCE,
-            grid: grid.transpose()?,
+            part_tolerance: setup.part_tolerance.unwrap_or(PART_TOLERANCE),
+            grid: grid.transpose()?.or(setup.grid),
             offsets: &Offsets::new(),
             levels: commons.levels(),
         };
@@ -95,7 +110,22 @@ impl Simulate {
                 "origin": grid.origin, "step": grid.step, "columns": grid.columns, "rows": grid.rows,
             });
             answer["heights"] = json!(done.left.tops());
+            answer["lowest"] = json!(done.left.lowest());
         }
         Ok(answer)
     }
+    /// A mesh that the setup file names.
+    fn mesh(&self, name: &str) -> Result<Mesh, Error> {
+        match self.meshes.iter().find(|mesh| mesh.name == name) {
+            Some(mesh) => read_mesh(mesh),
+            None => {
+                let what = format!("`{name}` is no stock, and no STL file that is there");
+                Err(Error::Run(StockCode::BadDescription.diag(what)))
+            }
+        }
+    }
+}
+
+fn read_mesh(file: &Named) -> Result<Mesh, Error> {
+    Mesh::read(&file.name, file.text.as_bytes()).map_err(Error::Run)
 }

@@ -169,3 +169,70 @@ fn the_motions_of_a_program_are_arrays_of_one_length() {
     // An axis array is there for a machine that tilts its tool alone.
     assert_eq!(bytes(&made["axis"]).len(), 0);
 }
+
+/// A request to debug the first case of a new post.
+fn debugged(text: &dyn Fn(&str) -> String, more: Value) -> Value {
+    let mut request = json!({
+        "do": "debug", "cl": text("cases/first/part.ncl"), "cl_name": "part.ncl",
+        "machine": file("machine.toml", &text("machine.toml")),
+        "fil": [file("post.fil", &text("post.fil"))],
+    });
+    for (key, value) in more.as_object().expect("an object") {
+        request[key] = value.clone();
+    }
+    ask(request)
+}
+
+#[test]
+fn a_run_stops_where_it_is_asked_to_and_goes_on_from_there() {
+    let text = new_post("haas-mill");
+    let fil = text("post.fil");
+    let line = 1 + fil.lines().position(|line| line.contains("HTEXT =")).expect("the line");
+    let stops = json!([{ "file": "post.fil", "line": line }, { "file": "other.fil", "line": 1 }]);
+    let value = |answer: &Value, name: &str| {
+        let scopes = answer["scopes"].as_array().expect("scopes").iter();
+        let all = scopes.flat_map(|scope| scope["variables"].as_array().expect("values"));
+        let found = all.clone().find(|value| value["name"] == name).expect("the name");
+        found["value"].as_str().expect("a text").to_string()
+    };
+    let first = debugged(&text, json!({ "breakpoints": stops, "step": "run" }));
+    assert_eq!(first["placed"][0]["line"], line);
+    assert!(first["placed"][1]["why"].is_string(), "{}", first["placed"]);
+    assert_eq!(first["stopped"]["hits"], json!([0]));
+    assert_eq!(first["frames"][0]["source"]["path"], "post.fil");
+    assert_eq!(first["frames"][0]["line"], line);
+    let before = value(&first, "HTEXT");
+    let here = &first["stopped"]["here"];
+    let next = debugged(
+        &text,
+        json!({ "from": here, "step": "over", "watched": ["POSTF(7,1)", "1+1", "NOSUCH"] }),
+    );
+    assert_eq!(next["stopped"]["reason"], "step");
+    assert_ne!(value(&next, "HTEXT"), before);
+    assert_eq!(next["watched"][1]["value"], "2");
+    assert!(next["watched"][2]["why"].is_string());
+    let back = debugged(&text, json!({ "from": next["stopped"]["back"], "step": "here" }));
+    assert_eq!(back["stopped"]["here"], *here);
+    assert_eq!(value(&back, "HTEXT"), before);
+    let over = debugged(&text, json!({ "from": here, "step": "run" }));
+    assert!(over["stopped"].is_null() && over["refusal"].is_null(), "{over}");
+}
+
+#[test]
+fn a_breakpoint_in_a_block_stops_at_that_line_of_the_program() {
+    let text = new_post("haas-mill");
+    let program = text("cases/first/expected.nc");
+    for (number, block) in (1..).zip(program.lines()) {
+        let answer = debugged(&text, json!({ "breakpoints": [{ "nc": number }] }));
+        assert_eq!(answer["stopped"]["text"], block, "line {number}");
+        assert_eq!(answer["stopped"]["hits"], json!([0]));
+    }
+    let condition =
+        json!({ "breakpoints": [{ "name": "record GOTO", "condition": "POSTF(7,6).LT.0" }] });
+    let answer = debugged(&text, condition);
+    assert_eq!(answer["frames"][0]["name"].as_str().map(|name| name.contains("GOTO")), Some(true));
+    let wrong = debugged(&text, json!({ "step": "sideways" }));
+    assert!(wrong["misuse"].as_str().is_some_and(|why| why.contains("sideways")));
+    let refused = debugged(&text, json!({ "cl": "UNITS / MM\nGOTO / 1, 2, 3\n" }));
+    assert_eq!(refused["stopped"]["reason"], "exception", "{refused}");
+}

@@ -120,6 +120,18 @@ export class Cases {
     return request;
   }
 
+  /** What of the scripts all cases have run, `{name, lines, line_share, branch_share, never}` of each file. */
+  async coverage() {
+    const jobs = [];
+    for (const name of this.names()) {
+      const job = await this.keys(name).then((keys) => this.request(name, keys)).catch(() => null);
+      if (job) jobs.push(job);
+    }
+    for (const job of jobs) delete job.do;
+    const answer = await this.ask({ do: "cover", jobs });
+    return answer.files ?? [];
+  }
+
   /** Makes a case of the part and the program that are shown. */
   save(name) {
     const folder = `cases/${name}`;

@@ -1,48 +1,122 @@
 // The editors: their findings, hovers, proposals and marked lines.
 import { autocompletion } from "@codemirror/autocomplete";
 import { setDiagnostics } from "@codemirror/lint";
-import { Annotation, EditorState, StateEffect, StateField } from "@codemirror/state";
-import { Decoration, EditorView, hoverTooltip } from "@codemirror/view";
+import { Annotation, EditorState, RangeSet, StateEffect, StateField } from "@codemirror/state";
+import { Decoration, EditorView, gutter, GutterMarker, hoverTooltip, keymap } from "@codemirror/view";
 import { basicSetup } from "codemirror";
 import { el } from "./dom.js";
 import { languageOf } from "./languages.js";
 
 const mark = StateEffect.define();
 const freshen = StateEffect.define();
+const stand = StateEffect.define();
+const setStops = StateEffect.define();
+const miss = StateEffect.define();
 
 /** A change that did not come from the editor's user. */
 const fromOutside = Annotation.define();
 
-/** Lines that are marked: those that belong to what is pointed at elsewhere. */
-const marked = StateField.define({
-  create: () => Decoration.none,
-  update(lines, transaction) {
-    lines = lines.map(transaction.changes);
-    for (const effect of transaction.effects) {
-      if (effect.is(mark)) {
-        const line = Decoration.line({ class: "marked" });
-        lines = Decoration.set(effect.value.map((at) => line.range(at)));
+/** Lines of a class, set by an effect with the positions of their starts. */
+function linesOf(name, wanted) {
+  return StateField.define({
+    create: () => Decoration.none,
+    update(lines, transaction) {
+      lines = lines.map(transaction.changes);
+      for (const effect of transaction.effects) {
+        if (effect.is(wanted)) {
+          const line = Decoration.line({ class: name });
+          lines = Decoration.set(effect.value.map((at) => line.range(at)));
+        }
       }
-    }
-    return lines;
-  },
-  provide: (field) => EditorView.decorations.from(field),
-});
+      return lines;
+    },
+    provide: (field) => EditorView.decorations.from(field),
+  });
+}
+
+/** Lines that are marked: those that belong to what is pointed at elsewhere. */
+const marked = linesOf("marked", mark);
 
 /** Lines that the last change has made. */
-const fresh = StateField.define({
-  create: () => Decoration.none,
-  update(lines, transaction) {
-    for (const effect of transaction.effects) {
-      if (effect.is(freshen)) {
-        const line = Decoration.line({ class: "fresh" });
-        lines = Decoration.set(effect.value.map((at) => line.range(at)));
-      }
+const fresh = linesOf("fresh", freshen);
+
+/** The line where a run stands that is debugged. */
+const standing = linesOf("standing", stand);
+
+/** Lines that no case has run. */
+const missed = linesOf("missed", miss);
+
+/** Shows which lines no case has run, counted from 1. */
+export function showMissed(view, lines) {
+  const { doc } = view.state;
+  view.dispatch({ effects: miss.of(lines.filter((line) => line <= doc.lines).map((line) => doc.line(line).from)) });
+}
+
+/** Shows where a run stands, a line counted from 1; null for nowhere. */
+export function showStanding(view, line) {
+  const { doc } = view.state;
+  view.dispatch({ effects: stand.of(line && line <= doc.lines ? [doc.line(line).from] : []) });
+}
+
+class StopMarker extends GutterMarker {
+  toDOM() {
+    const dot = el("span", { class: "stop" }, "●");
+    dot.title = "The run stops here";
+    return dot;
+  }
+}
+const stopMarker = new StopMarker();
+
+/** Lines with breakpoints; they move with the text. */
+const stops = StateField.define({
+  create: () => RangeSet.empty,
+  update(set, { changes, effects, state }) {
+    set = set.map(changes);
+    for (const effect of effects) {
+      if (!effect.is(setStops)) continue;
+      const lines = effect.value.filter((line) => line <= state.doc.lines).sort((a, b) => a - b);
+      set = RangeSet.of(lines.map((line) => stopMarker.range(state.doc.line(line).from)));
     }
-    return lines;
+    return set;
   },
-  provide: (field) => EditorView.decorations.from(field),
 });
+
+function stopLines(state) {
+  const lines = new Set();
+  for (const cursor = state.field(stops).iter(); cursor.value; cursor.next()) lines.add(state.doc.lineAt(cursor.from).number);
+  return [...lines];
+}
+
+/** Shows which lines have breakpoints, counted from 1. */
+export function showStops(view, lines) {
+  view.dispatch({ effects: setStops.of([...lines]) });
+}
+
+function toggleStop(view, at) {
+  const line = view.state.doc.lineAt(at).number;
+  const lines = stopLines(view.state);
+  showStops(view, lines.includes(line) ? lines.filter((each) => each !== line) : [...lines, line]);
+  return true;
+}
+
+/** Breakpoints beside the lines, by a click or by F9; `told` gets their lines. */
+function breakpoints(told) {
+  return [
+    stops,
+    standing,
+    missed,
+    gutter({
+      class: "cm-stops",
+      markers: (view) => view.state.field(stops),
+      initialSpacer: () => stopMarker,
+      domEventHandlers: { mousedown: (view, { from }) => toggleStop(view, from) },
+    }),
+    keymap.of([{ key: "F9", run: (view) => toggleStop(view, view.state.selection.main.head) }]),
+    EditorView.updateListener.of(({ state, startState }) => {
+      if (state.field(stops) !== startState.field(stops)) told(stopLines(state));
+    }),
+  ];
+}
 
 /** Shows which lines are new, counted from 1. */
 export function showFresh(view, lines) {
@@ -165,10 +239,12 @@ function cursor(told) {
 
 /**
  * An editor of a text in `parent`. `file(text)` names it for requests of the language tools and is null for
- * texts that have none; `changed` gets what its user makes of it, `pointed` the line of the cursor.
+ * texts that have none; `changed` gets what its user makes of it, `pointed` the line of the cursor, `stopped` the
+ * lines with breakpoints, which only texts that are run have.
  */
-export function editor(parent, { name, text, kind, readOnly, ask, file, changed, pointed }) {
+export function editor(parent, { name, text, kind, readOnly, ask, file, changed, pointed, stopped }) {
   const extensions = [
+    ...(stopped ? breakpoints(stopped) : []),
     basicSetup,
     languageOf(kind),
     marked,
@@ -184,8 +260,8 @@ export function editor(parent, { name, text, kind, readOnly, ask, file, changed,
   return new EditorView({ parent, state: EditorState.create({ doc: text, extensions }) });
 }
 
-/** A text that is read: `origin(line)` is told beside the pointer, `pointed` gets the line of the cursor. */
-export function reader(parent, { label, kind, origin, pointed }) {
+/** A text that is read: `origin(line)` is told beside the pointer, `pointed` gets the line of the cursor, `stopped` the lines with breakpoints. */
+export function reader(parent, { label, kind, origin, pointed, stopped }) {
   const tips = hoverTooltip((view, at) => {
     const line = view.state.doc.lineAt(at);
     const text = origin?.(line.number);
@@ -193,6 +269,7 @@ export function reader(parent, { label, kind, origin, pointed }) {
     return { pos: line.from, end: line.to, create: () => ({ dom: markdown("```\n" + text + "```") }) };
   });
   const extensions = [
+    breakpoints(stopped),
     basicSetup,
     languageOf(kind),
     marked,

@@ -1,4 +1,4 @@
-// All that is wrong or doubtful: of posting, of the texts, of the check against the CL file.
+// All that is wrong or doubtful: of posting, of the texts, of the check against the CL file, of the stock that is cut.
 import { debounced, signal } from "./dom.js";
 import { kindOf } from "./files.js";
 
@@ -8,10 +8,8 @@ const MOST_CHECKED = 3_000_000;
 const ORDER = { error: 0, warning: 1, advice: 2, info: 2, note: 3 };
 
 export class Findings {
-  constructor(files, posting, ask) {
-    this.files = files;
-    this.posting = posting;
-    this.ask = ask;
+  constructor(files, posting, cutting, ask) {
+    Object.assign(this, { files, posting, cutting, ask });
     this.posted = [];
     this.ofTexts = [];
     this.checked = [];
@@ -22,6 +20,7 @@ export class Findings {
     const later = debounced(300, () => this.judge());
     files.changed.on((name, by) => by !== "save" && kindOf(name) !== "text" && later());
     files.listed.on(later);
+    cutting.changed.on(() => this.changed.tell());
     posting.done.on(() => {
       this.posted = postedFindings(posting.answer);
       this.checked = [];
@@ -86,11 +85,11 @@ export class Findings {
   all() {
     const seen = new Set();
     const once = (finding) => {
-      const key = `${finding.code} ${finding.file} ${finding.line} ${finding.source === "verify" || !finding.code ? finding.message : ""}`;
+      const key = `${finding.code} ${finding.file} ${finding.line} ${["verify", "stock"].includes(finding.source) || !finding.code ? finding.message : ""}`;
       return !seen.has(key) && seen.add(key);
     };
     // Those of the texts come first, as they bring repairs.
-    const all = [...this.ofTexts, ...this.posted, ...this.checked].filter(once);
+    const all = [...this.ofTexts, ...this.posted, ...this.checked, ...this.cutting.findings()].filter(once);
     return all.sort((a, b) => (ORDER[a.severity] ?? 2) - (ORDER[b.severity] ?? 2));
   }
 

@@ -2,7 +2,9 @@
 import { zipSync, strToU8 } from "fflate";
 import { moduleBackend } from "./backends/module.js";
 import { serverBackend } from "./backends/server.js";
-import { askText, confirm, tell } from "./dialogs.js";
+import { Cutting } from "./cutting.js";
+import { Debugging } from "./debugging.js";
+import { confirm, tell } from "./dialogs.js";
 import { by, counted, el, tabs } from "./dom.js";
 import { Files, isCl } from "./files.js";
 import { Findings } from "./findings.js";
@@ -10,11 +12,13 @@ import { Cases } from "./cases.js";
 import { showView, startLayout, startViews } from "./layout.js";
 import { startCasebook } from "./panes/casebook.js";
 import { Compare } from "./panes/compare.js";
+import { startDebugger } from "./panes/debugger.js";
 import { Editing } from "./panes/editing.js";
 import { Form } from "./panes/form.js";
 import { startJudging } from "./panes/judging.js";
 import { PathPane } from "./panes/path.js";
 import { Program } from "./panes/program.js";
+import { startStock } from "./panes/stock.js";
 import { startTree } from "./panes/tree.js";
 import { MACHINE, Posting } from "./posting.js";
 import { pack, unpack } from "./share.js";
@@ -26,12 +30,14 @@ const backend = parts?.bytes ? moduleBackend(parts) : serverBackend((is) => (by(
 const { ask } = backend;
 const files = new Files(backend);
 const posting = new Posting(files, ask);
-const findings = new Findings(files, posting, ask);
-const editing = new Editing(files, posting, ask);
-const program = new Program(files, posting, { open });
+const cutting = new Cutting(files, posting, ask);
+const findings = new Findings(files, posting, cutting, ask);
+const debugging = new Debugging(files, posting, ask);
+const editing = new Editing(files, posting, debugging, ask);
+const program = new Program(files, posting, debugging, { open });
 const main = document.querySelector("main");
-const path = new PathPane(files, posting, ask);
-const form = new Form(files, posting, ask, { open });
+const path = new PathPane(files, posting, cutting, ask);
+const form = new Form(files, posting, ask, { open, showLines });
 const cases = new Cases(files, posting, ask);
 posting.recipeOf = (part) => cases.recipe(part);
 const compare = new Compare(files, posting, cases, ask, { openNc });
@@ -54,6 +60,21 @@ function openNc(line) {
   programTabs.choose("tab-nc");
   program.goTo(line);
   showView("program");
+}
+
+/** Marks lines of the program. */
+function showLines(lines) {
+  programTabs.choose("tab-nc");
+  program.mark(lines);
+}
+
+/** Shows where a run that is debugged stands, in the files and in the program. */
+async function stand(answer) {
+  // A script of a ready post is not among the files.
+  const frames = (answer?.frames ?? []).filter(({ source }) => files.has(source.path));
+  for (const { source, line } of [...frames].reverse()) await editing.show(source.path, line);
+  editing.stand(frames.map(({ source, line }) => [source.path, line]));
+  program.stand(answer?.stopped ? answer.blocks : null);
 }
 
 async function remove(name) {
@@ -116,9 +137,9 @@ function showDirty() {
 }
 
 posting.done.on(showStatus);
-files.changed.on(() => {
+files.changed.on((name) => {
   showDirty();
-  if (!posting.isLarge()) by("status").className = "waiting";
+  if (posting.reads(name) && !posting.isLarge()) by("status").className = "waiting";
 });
 files.listed.on(() => {
   showParts();
@@ -206,13 +227,16 @@ async function share() {
 startLayout();
 startViews();
 const programTabs = tabs(by("program-tabs"), (id) => id === "tab-compare" && compare.run());
-tabs(by("judge-tabs"), (id) => {
+const judgeTabs = tabs(by("judge-tabs"), (id) => {
   main.classList.toggle("path", id === "tab-path");
+  main.classList.toggle("debug", id === "tab-debug");
   if (id === "tab-path") path.open();
 });
 startJudging(findings, { open, openNc });
+startStock(cutting, files, posting, { open, showPath: () => judgeTabs.choose("tab-path") });
+startDebugger(debugging, { open, openNc, stand });
 startCasebook(cases, files, posting, {
-  choosePart, save,
+  choosePart, save, openFile: open, showCovered: (covered) => editing.showCovered(covered),
   compare: () => {
     programTabs.choose("tab-compare");
     showView("program");

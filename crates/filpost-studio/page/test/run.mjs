@@ -1,5 +1,6 @@
 // Uses the page as a person does: node run.mjs PROGRAM CHROMIUM [FOLDER FOR SCREENSHOTS], with the program of the
-// server, or with the folder of the playground: the same tests over both back ends.
+// server, or with the folder of the playground: the same tests over both back ends. FILPOST_STUDIO_TEST runs those
+// whose name has that text.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
@@ -85,7 +86,9 @@ async function studio({ viewport = { width: 1280, height: 800 }, hash } = {}) {
 }
 
 let failed = 0;
-const all = isPlayground ? { ...(await import("./alone.mjs")).alone, ...tests } : tests;
+const known = isPlayground ? { ...(await import("./alone.mjs")).alone, ...tests } : tests;
+const wanted = process.env.FILPOST_STUDIO_TEST ?? "";
+const all = Object.fromEntries(Object.entries(known).filter(([name]) => name.includes(wanted)));
 for (const [name, test] of Object.entries(all)) {
   try {
     await test(studio, isPlayground);

@@ -125,7 +125,7 @@ export const tests = {
       assert.ok(machine.includes(line), `${line} is not in\n${machine}`);
     }
     // What is set here is marked, and can be taken back.
-    await page.locator(".setting.own", { hasText: "seqno.increment" }).getByRole("button").click();
+    await page.locator(".setting.own", { hasText: "seqno.increment" }).getByRole("button", { name: "Reset" }).click();
     await shows(page, "N10 ");
     await page.locator("#open-tabs [aria-selected=true]", { hasText: "Machine" }).waitFor();
     // A value that the setting can't have is said, and nothing changes.
@@ -133,6 +133,18 @@ export const tests = {
     await setting(page, "program.number").press("Enter");
     await page.locator(".problem:visible").waitFor();
     await shows(page, "O4711");
+    await close();
+  },
+
+  async "a setting shows the lines that depend on it"(studio) {
+    const { page, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    await page.getByRole("searchbox", { name: "Find a setting" }).fill("coolant off");
+    const row = page.locator(".setting", { has: setting(page, "coolant.off_code") });
+    await row.getByRole("button", { name: "Lines of coolant.off_code" }).click();
+    await row.locator(".notes", { hasText: /\d lines? \(/ }).waitFor();
+    await page.locator("#nc .marked", { hasText: "M9" }).first().waitFor();
+    await picture("touches");
     await close();
   },
 
@@ -160,6 +172,16 @@ export const tests = {
     assert.equal(await read("cases/second/expected.nc"), await read("cases/first/expected.nc"));
     await page.click("#run-cases");
     await page.locator("#cases-said", { hasText: "2 cases passed, 0 failed" }).waitFor();
+    // What no case runs is said, and marked in the script.
+    await page.locator("#coverage li", { hasText: /post\.fil \d+ of \d+ lines/ }).waitFor();
+    await openFile(page, "post.fil");
+    await typeAtTop(page, "CIMFIL/ON,OPSKIP\n  XX=1\n  DMY=POSTF(13)\nCIMFIL/OFF\n");
+    await said(page, "blocks");
+    await page.click("#run-cases");
+    await page.locator("#coverage .other", { hasText: "line 2 never ran" }).click();
+    await page.locator("#editors .editor:visible .missed", { hasText: "XX=1" }).waitFor();
+    await picture("coverage");
+    await page.getByRole("tab", { name: "Machine", exact: true }).click();
     await setting(page, "seqno.increment").fill("5");
     await setting(page, "seqno.increment").press("Enter");
     await shows(page, "N15 ");
@@ -196,6 +218,142 @@ export const tests = {
     await typeAtTop(page, "CIMFIL/ON,COOLNT\n  POSTN/OUT,G,1,X,99,F,500\n  DMY = POSTF(13)\nCIMFIL/OFF\n");
     await shows(page, "X99.");
     await page.locator("#findings li", { hasText: "verify" }).first().waitFor({ timeout: 15_000 });
+    await close();
+  },
+
+  async "a run stops in a script, a CL file and the program, and goes back"(studio) {
+    const { page, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    await page.click("#tab-debug");
+    const place = page.locator("#debug-place"), step = (name) => page.getByRole("button", { name, exact: true }).click();
+    // In a script: a line by the key, with its values.
+    await openFile(page, "post.fil");
+    const script = page.locator("#editors .editor:visible");
+    await script.locator(".cm-line", { hasText: "HTEXT =" }).first().click();
+    await page.keyboard.press("F9");
+    await script.locator(".cm-stops .stop", { hasText: "●" }).last().waitFor();
+    await step("Start");
+    await place.locator(".where", { hasText: "post.fil" }).first().waitFor();
+    await script.locator(".standing", { hasText: "HTEXT =" }).waitFor();
+    const value = page.locator("#debug-values tr", { hasText: "HTEXT" }).locator("td");
+    const before = await value.innerText();
+    await page.keyboard.press("F10");
+    await page.waitForFunction((old) => [...document.querySelectorAll("#debug-values tr")]
+      .some((row) => row.cells[0].innerText === "HTEXT" && row.cells[1].innerText !== old), before);
+    await picture("debugger");
+    await step("Back");
+    await script.locator(".standing", { hasText: "TEXT/PROG" }).waitFor();
+    assert.equal(await value.innerText(), before);
+    // In the CL file, under a condition that never holds, and without.
+    await page.getByRole("button", { name: /^Remove post\.fil:/ }).click();
+    await openFile(page, "cases/first/part.ncl");
+    await page.locator("#editors .editor:visible .cm-line", { hasText: "SPINDL" }).first().click();
+    await page.keyboard.press("F9");
+    await step("Continue");
+    await place.locator(".frames", { hasText: "SPINDL" }).waitFor();
+    await page.locator("#editors .editor:visible .standing", { hasText: "SPINDL" }).waitFor();
+    // In the program: the block that was written last is the one with the breakpoint.
+    await page.locator("#nc .cm-line", { hasText: "S2000 M3" }).click();
+    await page.keyboard.press("F9");
+    await step("Continue");
+    await place.locator("p", { hasText: "S2000 M3" }).waitFor();
+    await page.locator("#nc .standing", { hasText: "S2000 M3" }).waitFor();
+    // A word that stops at each record of its kind, and a value that is shown.
+    await page.getByRole("textbox", { name: "Stop at" }).fill("record FEDRAT");
+    await page.keyboard.press("Enter");
+    await page.getByRole("textbox", { name: "Show" }).fill("POSTF(7,1)");
+    await page.keyboard.press("Enter");
+    await step("Continue");
+    await place.locator(".frames", { hasText: "FEDRAT" }).waitFor();
+    await page.locator("#debug-watched", { hasText: /POSTF\(7,1\) \S/ }).waitFor();
+    assert.deepEqual(await faults(page), [], "the debugger");
+    // Another text has other places.
+    await openFile(page, "post.fil");
+    await typeAtTop(page, "$$ another text\n");
+    await place.locator("p", { hasText: "start again" }).waitFor();
+    await close();
+  },
+
+  async "stock is cut, and what goes wrong has its block and its CL line"(studio) {
+    const { page, read, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    await page.click("#tab-stock");
+    const setup = (name) => page.locator("#stock-form").getByLabel(name);
+    await setup("Stock").fill("box:120x80x20@-60,-40,-20");
+    await setup("Stock").press("Tab");
+    await setup("Tools").fill("1 = D10");
+    await setup("Tools").press("Tab");
+    await page.locator("#stock-said", { hasText: "Nothing was found. Removed" }).or(page.locator("#stock-said", { hasText: /Removed|E09/ })).first().waitFor();
+    await picture("stock-clean");
+    // Stock that is higher than the part was planned for is hit by a rapid.
+    await setup("Stock").fill("box:120x80x120@-60,-40,-20");
+    await setup("Stock").press("Tab");
+    await page.click("#tab-findings");
+    const hit = page.locator("#findings li", { hasText: "E0971" }).first();
+    await hit.waitFor();
+    await hit.locator(".other", { hasText: "part.ncl" }).click();
+    await page.locator("#open-tabs [aria-selected=true]", { hasText: "part.ncl" }).waitFor();
+    await hit.locator(".finding").click();
+    await page.locator("#cause", { hasText: "part.ncl" }).waitFor();
+    await picture("stock-finding");
+    await page.click("#tab-stock");
+    await page.getByRole("button", { name: "Show in Path" }).click();
+    await page.locator(".fv-legend label", { hasText: "feed" }).waitFor();
+    await picture("stock-path");
+    await page.click("#tab-stock");
+    assert.deepEqual(await faults(page), [], "the stock");
+    await page.keyboard.press("Control+s");
+    await page.waitForFunction(() => !document.querySelector("#tree .dirty"));
+    assert.match(await read("cases/first/stock.toml"), /1 = "D10"/);
+    await close();
+  },
+
+  async "from an empty folder to an own post: wishes, a stop, a repair, a case"(studio) {
+    const { page, read, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    // Five wishes, in the form.
+    const wish = async (key, value) => {
+      await page.getByRole("searchbox", { name: "Find a setting" }).fill(key);
+      // The list follows the last letter.
+      await page.waitForTimeout(400);
+      await setting(page, key).fill(value);
+      await setting(page, key).press("Enter");
+    };
+    for (const [key, value, block] of [
+      ["program.number", "4711", "O4711"], ["seqno.increment", "5", "N15 "], ["coolant.default_code", "7", "M7"],
+      ["coolant.off_code", "109", "M109"], ["spindle.stop_code", "105", "M105"],
+    ]) {
+      await wish(key, value);
+      await shows(page, block);
+    }
+    // A sentence of FIL with a mistake in it, and its repair.
+    await openFile(page, "post.fil");
+    await typeAtTop(page, "CIMFIL/ON,COOLNT\n  XX = SQRTFF(16)\n  DMY = POSTF(13)\nCIMFIL/OFF\n");
+    await said(page, "Refused");
+    await page.locator("#findings .repair", { hasText: "write SQRTF" }).click();
+    await said(page, "blocks");
+    // What it does is looked at: the run stops in it, and the value is there after the step.
+    await page.click("#tab-debug");
+    await page.locator("#editors .editor:visible .cm-line", { hasText: "SQRTF(16)" }).click();
+    await page.keyboard.press("F9");
+    await page.getByRole("button", { name: "Start", exact: true }).click();
+    await page.locator("#debug-place .frames", { hasText: "COOLNT" }).waitFor();
+    await page.keyboard.press("F10");
+    await page.locator("#debug-values tr", { hasText: /^XX\s*4/ }).waitFor();
+    await picture("own-post-stop");
+    // The part and its program become a case, which passes.
+    await page.click("#tab-cases");
+    await page.click("#save-case");
+    await page.locator("#dialog input").fill("plate");
+    await page.keyboard.press("Enter");
+    await page.locator("#cases li", { hasText: "cases/plate" }).waitFor();
+    await page.waitForFunction(() => !document.querySelector("#tree .dirty"));
+    await page.click("#run-cases");
+    await page.locator("#cases li.passed", { hasText: "cases/plate" }).waitFor();
+    assert.match(await read("cases/plate/expected.nc"), /M109/);
+    assert.match(await read("post.fil"), /SQRTF\(16\)/);
+    assert.match(await read("machine.toml"), /off_code = 109/);
+    await picture("own-post");
     await close();
   },
 

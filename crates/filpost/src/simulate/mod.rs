@@ -3,6 +3,7 @@
 
 mod cl_tools;
 mod json;
+mod setup;
 
 use fil_machine::commons::Commons;
 use fil_nc::dialect::Dialect;
@@ -15,6 +16,7 @@ use crate::plot::Text;
 
 pub use cl_tools::{ClTools, cl_tools};
 pub use json::as_json;
+pub use setup::Setup;
 
 /// Simulates an NC program on the machine of these settings.
 ///

@@ -5,7 +5,7 @@ import workerText from "worker:./worker.js";
 const PATIENCE = 20_000;
 
 /** What the second module answers; the first has all else. */
-const JUDGED = new Set(["plot", "verify", "compare", "motions"]);
+const JUDGED = new Set(["plot", "columns", "verify", "compare", "motions", "simulate", "debug", "cover"]);
 
 /** One module in a worker: requests, and a new worker where one takes too long. */
 class Asked {

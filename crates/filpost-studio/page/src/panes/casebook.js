@@ -3,9 +3,12 @@ import { askText, tell } from "../dialogs.js";
 import { by, counted, el } from "../dom.js";
 import { folderOf } from "../files.js";
 
+/** Most places of a script that no case runs, in the list. */
+const MOST_MISSED = 12;
+
 const WORDS = { passed: "passed", failed: "failed", skipped: "not run" };
 
-export function startCasebook(cases, files, posting, { choosePart, compare, save }) {
+export function startCasebook(cases, files, posting, { choosePart, compare, save, openFile, showCovered }) {
   const list = by("cases");
   const tab = by("tab-cases");
   let results = new Map();
@@ -49,6 +52,23 @@ export function startCasebook(cases, files, posting, { choosePart, compare, save
     const count = (state) => states.filter((each) => each === state).length;
     by("cases-said").textContent = `${counted(count("passed"), "case")} passed, ${count("failed")} failed${count("skipped") ? `, ${count("skipped")} not run` : ""}`;
     by("run-cases").disabled = false;
+    showCoverage(await cases.coverage().catch(() => []));
+  }
+
+  /** Says what of each script the cases run, and marks in its editor what none does. */
+  function showCoverage(covered) {
+    showCovered(covered);
+    by("coverage").replaceChildren(...covered.filter(({ line_share: [, all] }) => all).map(({ name, lines, line_share, branch_share, never }) => {
+      const missed = lines.filter(([, count]) => !count).map(([line]) => [line, `line ${line} never ran`]);
+      const of = ([hit, all], what) => all ? `${hit} of ${counted(all, what)}` : null;
+      const known = files.has(name);
+      return el("li", {},
+        el("b", {}, name), " ", [of(line_share, "line"), of(branch_share, "outcome")].filter(Boolean).join(", "), " run by the cases",
+        ...[...missed, ...never].slice(0, MOST_MISSED).map(([line, text]) => known
+          ? el("button", { type: "button", class: "other", onclick: () => openFile(name, line) }, text)
+          : el("span", { class: "hint" }, text)),
+        missed.length + never.length > MOST_MISSED ? el("span", { class: "hint" }, `and ${missed.length + never.length - MOST_MISSED} more`) : null);
+    }));
   }
 
   by("run-cases").addEventListener("click", run);
@@ -71,6 +91,7 @@ export function startCasebook(cases, files, posting, { choosePart, compare, save
     if (results.size) {
       results = new Map();
       by("cases-said").textContent = "";
+      showCoverage([]);
       show();
     }
   });

@@ -1,25 +1,26 @@
 // The open files, each in a tab with an editor of its own.
 import { by, debounced, el, signal } from "../dom.js";
-import { editor, goTo, markdown, markLines, position, setText, showFindings } from "../editors.js";
+import { editor, goTo, markdown, markLines, position, setText, showFindings, showMissed, showStanding, showStops } from "../editors.js";
 import { baseOf, isCl, isFil, kindOf } from "../files.js";
 import { MACHINE } from "../posting.js";
 
 const LANGUAGES = { cl: "cl", fil: "fil", machine: "machine" };
 
 export class Editing {
-  constructor(files, posting, ask) {
-    this.files = files;
-    this.posting = posting;
-    this.ask = ask;
+  constructor(files, posting, debugging, ask) {
+    Object.assign(this, { files, posting, debugging, ask });
     /** By name: `{name, tab, box, view}`. */
     this.open = new Map();
     this.current = null;
+    /** Lines that no case has run, by file. */
+    this.missed = new Map();
     /** The cursor is in a line: file and line. */
     this.pointed = signal();
     this.chosen = signal();
     this.tellWord = debounced(120, (name, at) => this.showWord(name, at));
     by("open-tabs").addEventListener("keydown", (event) => this.key(event));
     files.changed.on((name, who) => this.follow(name, who));
+    debugging.moved.on((name) => this.showStops(name));
     files.listed.on(() => {
       for (const name of this.open.keys()) if (!files.has(name) && this.open.get(name).view) this.close(name);
     });
@@ -94,9 +95,12 @@ export class Editing {
         this.pointed.tell(name, line);
         this.tellWord(name, at);
       },
+      stopped: (isCl(name) || isFil(name)) && ((lines) => this.debugging.setLines(name, lines)),
     });
     this.add(name, baseOf(name), box, view, true);
     this.label(name);
+    this.showStops(name);
+    if (this.missed.has(name)) showMissed(view, this.missed.get(name));
   }
 
   /** A text as requests of the language tools name it. */
@@ -143,6 +147,25 @@ export class Editing {
   mark(places) {
     for (const { name, view } of this.open.values()) {
       if (view) markLines(view, places.filter(([file]) => file === name).map(([, line]) => line));
+    }
+  }
+
+  /** Shows the breakpoints of a file where it is open. */
+  showStops(name) {
+    const { view } = this.open.get(name) ?? {};
+    if (view && this.debugging.linesOf(name).length + view.dom.querySelectorAll(".stop").length) showStops(view, this.debugging.linesOf(name));
+  }
+
+  /** Shows which lines of scripts no case has run. */
+  showCovered(covered) {
+    this.missed = new Map(covered.map(({ name, lines }) => [name, lines.filter(([, count]) => !count).map(([line]) => line)]));
+    for (const { name, view } of this.open.values()) if (view && isFil(name)) showMissed(view, this.missed.get(name) ?? []);
+  }
+
+  /** Shows where a run stands, `[name, line]` of each file. */
+  stand(places) {
+    for (const { name, view } of this.open.values()) {
+      if (view && (isCl(name) || isFil(name))) showStanding(view, places.find(([file]) => file === name)?.[1] ?? null);
     }
   }
 

@@ -1,6 +1,7 @@
 // The machine as a form: each setting with its text, its default, its choices, and what differs from the base.
-import { by, debounced, el } from "../dom.js";
+import { by, counted, debounced, el } from "../dom.js";
 import { MACHINE } from "../posting.js";
+import { changedLines } from "./program.js";
 
 /** Titles of the groups, by the first part of a key; those that are not named are titled by their key. */
 const TITLES = {
@@ -33,8 +34,12 @@ const COMMON = new Set([
   "limits.check", "limits.x_min", "limits.x_max", "limits.y_min", "limits.y_max", "limits.z_min", "limits.z_max", "circle.radius_mode", "message.waits",
 ]);
 
+/** Most other values that are tried. */
+const MOST_TRIED = 4;
+
 export class Form {
-  constructor(files, posting, ask, { open }) {
+  constructor(files, posting, ask, { open, showLines }) {
+    this.showLines = showLines;
     this.files = files;
     this.posting = posting;
     this.ask = ask;
@@ -77,6 +82,12 @@ export class Form {
 
   show() {
     if (!this.made) return;
+    // What somebody is typing is not taken away: the list is made anew when that is done.
+    const typing = document.activeElement;
+    if (this.list.contains(typing) && typing.dataset.shown !== undefined && typing.dataset.shown !== typing.value) {
+      typing.addEventListener("blur", () => this.show(), { once: true });
+      return;
+    }
     const { base, settings, options, blocks } = this.made;
     const names = this.ready.map(({ name }) => name);
     this.base.replaceChildren(
@@ -128,18 +139,52 @@ export class Form {
     return { own: own !== null, differs: value.length > 0, common: own !== null || value.length > 0 || this.find.value.trim() !== "" }[this.view.value] ?? true;
   }
 
-  row(key, { label, help, control, isOwn, notes, quiet }) {
+  row(key, { label, help, control, isOwn, notes, quiet, others }) {
     const id = `set-${key}`;
     control.id = id;
+    const keep = () => (control.dataset.shown = control.value);
+    keep();
+    control.addEventListener("change", keep);
+    const said = el("span", { "aria-live": "polite" });
     return el(
       "div",
       { class: `setting${isOwn ? " own" : ""}${quiet ? " idle" : ""}` },
       el("label", { for: id }, el("code", {}, label), el("span", {}, help)),
       el("span", { class: "control" }, control, isOwn
         ? el("button", { type: "button", class: "reset", title: `Take ${label} out of machine.toml`, "aria-label": `Reset ${label}`, onclick: () => this.set(key, null) }, "↺")
-        : null),
-      el("span", { class: "notes" }, ...notes.filter(Boolean).map((note) => el("span", {}, note))),
+        : null, quiet ? null : el("button", {
+        type: "button", class: "touches", title: "Mark the lines of the program that depend on it", "aria-label": `Lines of ${label}`,
+        onclick: () => this.touch(key, others, said),
+      }, "≡")),
+      el("span", { class: "notes" }, ...notes.filter(Boolean).map((note) => el("span", {}, note)), said),
     );
+  }
+
+  /** Finds the lines of the program that depend on a setting: those that are otherwise with another value. */
+  async touch(key, others, said) {
+    const request = this.posting.request(), { lines } = this.posting;
+    if (!request || !this.posting.answer?.nc) {
+      said.textContent = "there is no program";
+      return;
+    }
+    said.textContent = "…";
+    let refused = 0;
+    for (const value of others.slice(0, MOST_TRIED)) {
+      const answer = await this.ask({ ...request, set: [...(request.set ?? []), `${key}=${value}`] }).catch(() => ({}));
+      if (answer.nc === undefined) {
+        refused += 1;
+        continue;
+      }
+      const other = answer.nc.replaceAll("\r\n", "\n").split("\n");
+      const { made, gone } = changedLines(other, lines);
+      if (!made.length && !gone) continue;
+      said.textContent = `${counted(made.length, "line")} (${value} gives other ones)`;
+      this.showLines(made);
+      return;
+    }
+    this.showLines([]);
+    said.textContent = refused && refused >= Math.min(others.length, MOST_TRIED)
+      ? "other values are refused with this part" : "no line of this part";
   }
 
   settingRow(setting) {
@@ -156,6 +201,7 @@ export class Form {
       control: this.settingControl(setting),
       isOwn,
       quiet: !acts,
+      others: otherValues(setting),
       notes: [
         isOwn && value !== base ? `base ${shown(base)}` : null,
         base !== setting.default || isOwn ? `default ${shown(setting.default)}` : null,
@@ -197,6 +243,8 @@ export class Form {
     }
     return this.row(key, {
       label: name, help, control, isOwn: own !== null,
+      others: choices.length ? choices.filter((each) => each !== value).map((each) => kind === "bool" ? String(each === "yes") : JSON.stringify(each))
+        : kind === "text" ? ['"OTHER"'] : [String(Number(value) + 1)],
       notes: [own !== null || option.default !== value ? `default ${option.default || "empty"}` : null, choices.length ? null : values],
     });
   }
@@ -207,6 +255,7 @@ export class Form {
       onchange: () => this.set(key, `[${control.value.split("\n").filter((line) => line.trim()).map((line) => JSON.stringify(line.trim())).join(", ")}]`),
     });
     return this.row(key, {
+      others: value.length ? ["[]"] : ['["(A BLOCK)"]'],
       label: key, help: "One block in each line, written as it is here.", control, isOwn: own !== null,
       notes: [own !== null && base.length ? `base ${base.join(" / ")}` : null],
     });
@@ -226,6 +275,18 @@ export class Form {
 }
 
 const UNITS = { code: "number of a G or M code", mm: "mm", deg: "degrees", rpm: "turns/min", s: "seconds", "mm/min": "mm/min", letter: "a letter", char: "a character", count: "a whole number" };
+
+/** Values that a setting may have instead, as TOML writes them: what is near comes first. */
+function otherValues({ unit, choices, value, base, default: usual }) {
+  if (choices.length) {
+    const flag = choices.every(([, text]) => text === "yes" || text === "no");
+    return choices.filter(([each]) => each !== value).map(([each, text]) => flag ? String(text === "yes") : String(each));
+  }
+  if (unit === "letter") return ["A", "E", "Q", "V"].filter((letter) => letter !== said(value, unit)).map((letter) => JSON.stringify(letter));
+  const known = [base, usual].filter((each) => each !== null && each !== value).map(String);
+  if (value === null) return [...known, "1", "10", "100"];
+  return unit === "char" ? known : [...known, String(value + 1), String(value * 2), String(value / 2), '"none"'];
+}
 
 /** A value as people write it. */
 function said(number, unit) {

@@ -1,5 +1,6 @@
 // The path of the program in three dimensions, over that of a second one. The view is loaded when its
 // tab is opened for the first time.
+import { bodyOf } from "../cutting.js";
 import { tell } from "../dialogs.js";
 import { by, el, signal } from "../dom.js";
 import { isCl } from "../files.js";
@@ -17,8 +18,8 @@ function load() {
 }
 
 export class PathPane {
-  constructor(files, posting, ask) {
-    Object.assign(this, { files, posting, ask });
+  constructor(files, posting, cutting, ask) {
+    Object.assign(this, { files, posting, cutting, ask });
     this.view = null;
     this.asked = 0;
     this.isStale = true;
@@ -31,6 +32,7 @@ export class PathPane {
       if (this.isOpen) this.open();
     });
     files.listed.on(() => this.listSecond());
+    cutting.changed.on(() => this.showStock());
     this.listSecond();
   }
 
@@ -57,6 +59,13 @@ export class PathPane {
       tools: [el("label", {}, "over ", this.second)],
     });
     await this.showSecond();
+    this.showStock();
+  }
+
+  /** Shows what is left of the stock. */
+  showStock() {
+    const { report } = this.cutting;
+    this.view?.setStock(report ? bodyOf(report) : null);
   }
 
   /** The path of a text as the answer to a request for it; null where there is none. */

@@ -1,19 +1,20 @@
 // The NC program, and what made the block that is pointed at.
 import { by, counted, el, signal } from "../dom.js";
-import { goTo, markLines, reader, setText, showFresh } from "../editors.js";
+import { NC } from "../debugging.js";
+import { goTo, markLines, reader, setText, showFresh, showStanding, showStops } from "../editors.js";
 
 export class Program {
-  constructor(files, posting, { open }) {
-    this.files = files;
-    this.posting = posting;
-    this.open = open;
+  constructor(files, posting, debugging, { open }) {
+    Object.assign(this, { files, posting, open });
     /** The cursor is in a line of the program. */
     this.pointed = signal();
     this.view = reader(by("nc"), {
       label: "NC program", kind: "nc",
       origin: (line) => this.told(line),
       pointed: (line) => this.point(line),
+      stopped: (lines) => debugging.setLines(NC, lines),
     });
+    debugging.moved.on((file) => file === NC && showStops(this.view, debugging.linesOf(NC)));
     posting.done.on(() => this.show());
   }
 
@@ -85,6 +86,17 @@ export class Program {
   /** Shows a line of the program. */
   goTo(line) {
     goTo(this.view, line);
+  }
+
+  /** Marks lines, and shows the first. */
+  mark(lines) {
+    markLines(this.view, lines);
+  }
+
+  /** Shows the last block that a run has written; null for none. */
+  stand(line) {
+    showStanding(this.view, line);
+    if (line) goTo(this.view, line);
   }
 
   /** Marks the blocks of a line of a CL or FIL file. */

@@ -169,6 +169,7 @@ class View {
   /** Shows a body, such as what is left of the stock: `positions` and `normals`, three numbers a
    *  corner (mm, frame of the part), and the corners of its triangles; null takes it away. */
   setStock(body) {
+    const isNew = Boolean(body) && !this.stock;
     this.stock?.geometry.dispose();
     this.stock?.material.dispose();
     this.stock?.removeFromParent();
@@ -183,7 +184,10 @@ class View {
       const look = { color: this.theme.stock, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 };
       this.stock = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial(look));
       this.part.add(this.stock);
+      geometry.computeBoundingBox();
     }
+    this.surround();
+    if (isNew) this.fit();
     this.ask();
   }
 
@@ -200,6 +204,7 @@ class View {
       this.box.expandByPoint(this.spot.fromArray(program.max));
       if (program.lathe) this.box.expandByPoint(this.spot.set(0, 0, program.min[2]));
     }
+    if (this.stock) for (const box of [this.box, this.cut]) box.union(this.stock.geometry.boundingBox);
     const size = this.box.isEmpty() ? 100 : this.box.getSize(this.spot).length();
     this.size = Math.max(size, 1e-3);
     const center = this.box.isEmpty() ? 0 : this.box.getCenter(this.spot).length();
