@@ -34,14 +34,14 @@ export class Files {
     this.changed = signal();
   }
 
-  /** Reads the list of the files, and the texts of the post itself. */
+  /** Reads the list of the files, and the texts of the post itself with those that its scripts may include. */
   async load() {
     const { folder, files, all } = await this.backend.list();
     this.folder = folder;
     this.isWhole = all;
     this.all.clear();
     for (const file of files) this.all.set(file.name, { ...file, text: null, saved: null });
-    const own = files.filter(({ name }) => !name.includes("/") && (isFil(name) || name === "machine.toml"));
+    const own = files.filter(({ name }) => name === "machine.toml" || (isFil(name) && !name.startsWith("cases/")));
     await Promise.all(own.map(({ name }) => this.read(name)));
     this.listed.tell();
   }

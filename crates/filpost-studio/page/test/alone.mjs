@@ -19,7 +19,9 @@ export const alone = {
       await page.click("#start");
       await page.evaluate(() => (document.getElementById("status").textContent = ""));
       await page.locator(".card", { has: page.getByText(title, { exact: true }) }).click();
-      await said(page, expected === null ? "Refused" : "blocks");
+      await said(page, expected === null ? "Refused" : "blocks").catch(async (error) => {
+        throw new Error(`${title}: ${await page.locator("#status").innerText()}, ${await page.locator("#findings").innerText()}`, { cause: error });
+      });
       // An editor has one kind of line end.
       assert.equal(plain(await program(page)), plain(expected ?? ""), title);
     }
