@@ -8,12 +8,12 @@ fil_diag::codes! {
             "The operating system refused to read on.",
             "Check that the file exists, is readable and is not being written.";
         /// Bytes that no text has.
-        BinaryData = 402, Error, "not a CL text",
-            "The line holds control characters, as in a binary CL file or a file in UTF-16.",
+        BinaryData = 402, Error, "not a CL text file",
+            "The line has control characters, as in a binary CL file or a file in UTF-16.",
             "Give the text form of the CL file (Creo writes NAME.ncl.N).";
         /// A statement longer than the limit.
         StatementTooLong = 403, Error, "statement too long",
-            "A statement longer than the limit is taken for damage, not for CL data.",
+            "A statement longer than the limit is a sign of a damaged file.",
             "Check whether the line ends or continuation signs of the file are damaged.";
         /// A `$` that nothing follows.
         OpenContinuation = 404, Error, "statement is cut off",
@@ -29,17 +29,15 @@ fil_diag::codes! {
             "Check the spelling, the commas and the slash.";
         /// Coordinates of a wrong number or kind.
         BadPoint = 407, Error, "wrong coordinates",
-            "GOTO, FROM, GODLTA and CIRCLE take numbers only, and a certain number of them.",
-            "Check the statement for missing or surplus values.";
+            "GOTO, FROM, GODLTA and CIRCLE take only numbers, and a fixed number of them.",
+            "Check the statement for missing or extra values.";
         /// A motion that is not yet computed.
-        UncomputedMotion = 408, Error, "motion is not in points",
-            "The statement describes the motion by geometry; its points are not in the file, \
-             and leaving it out would make a wrong path.",
-            "Write the CL file again with points or with CIRCLE arcs (Creo: CIRC_INTERPOLATION \
-             other than APT_FORMAT; other systems than NX: no NURBS output).";
+        UncomputedMotion = 408, Error, "motion without computed points",
+            "The statement describes the move by geometry; its points are not in the file, and leaving it out would make a wrong path.",
+            "Write the CL file again with points or with CIRCLE arcs (Creo: CIRC_INTERPOLATION other than APT_FORMAT; other systems than NX: no NURBS output).";
         /// Going back in a stream.
-        NotSeekable = 409, Error, "input cannot go back",
-            "The CL data come from a stream, which can be read only once and forwards.",
+        NotSeekable = 409, Error, "streamed input can't be rewound",
+            "The CL data come from a stream, which can be read only once.",
             "Give the CL file by its name.";
         /// A record number outside the file.
         NoSuchRecord = 410, Error, "no such CL record",
@@ -47,12 +45,11 @@ fil_diag::codes! {
             "Check the record number.";
         /// Too many different words.
         TooManyWords = 411, Error, "too many different words",
-            "A CL file has some hundred different words; more than the limit are taken for damage.",
+            "A CL file has a few hundred different words; more than the limit is a sign of damage.",
             "Check that the file is a CL file.";
         /// A record that has no text form.
         Unwritable = 412, Error, "record has no text form",
-            "The record holds something a CL statement cannot say, so that it would read back as \
-             another record.",
+            "The record holds something that a CL statement can't express: it would read back as another record.",
             "Check the section that made or changed the record.";
         /// The output could not be written.
         WriteFailed = 413, Error, "CL file cannot be written",
@@ -60,48 +57,39 @@ fil_diag::codes! {
             "Check the disk space and the permissions.";
         /// A last line that has no end.
         LineCutOff = 414, Error, "last line may be cut off",
-            "The file ends without a line end, in a statement that may go on: more digits, more \
-             items or more text may be lost.",
-            "Compare the end of the file with the CAM system's; end the line where it is whole.";
+            "The file ends without a line end, in an unfinished statement: more digits, items or text may be lost.",
+            "Compare the end of the file with the CAM system's. If it is complete, end the last line.";
         /// Signs of two CAM systems in one text.
-        TwoDialects = 415, Error, "text of two dialects",
-            "Dialects differ in the sense of arcs, so a text must not be read half by one and \
-             half by another.",
+        TwoDialects = 415, Error, "CL text mixes two dialects",
+            "Dialects differ in the direction of arcs, so filpost reads a text in one dialect only.",
             "Choose the dialect with --dialect.";
         /// Values that could be a tool axis, one point or several.
-        UnclearPoints = 416, Error, "points are not clear",
-            "Six values of a GOTO are a point and a tool axis of length 1; several points in one \
-             GOTO are read only where they can be nothing else.",
+        UnclearPoints = 416, Error, "points and tool axis are ambiguous",
+            "Six values of a GOTO are a point and a tool axis of length 1; several points in one GOTO are read only if they can be nothing else.",
             "Write each point in a GOTO of its own.";
         /// A CIRCLE of another dialect.
-        ForeignArc = 417, Error, "arc is not in a form of the dialect",
-            "The axis of a CIRCLE means the opposite sense in some dialects; the number of its \
-             values shows which it is from.",
+        ForeignArc = 417, Error, "arc is not in the form of this dialect",
+            "The axis of a CIRCLE means the opposite direction in some dialects; the number of its values shows which one it is.",
             "Choose the dialect of the CAM system with --dialect.";
         /// A statement that lacks an item.
         MissingItem = 418, Error, "item is missing",
-            "The statement says nothing without the item; it is perhaps in a line that got lost.",
-            "Check the statement; a statement goes on in the next line when its line ends in $.";
+            "The statement is incomplete without the item, which may be in a lost line.",
+            "Check the statement; it continues in the next line if its line ends in $.";
         /// A text that may be a block or a note.
-        UnclearText = 419, Error, "text is a block or a note",
-            "The system writes notes for people and blocks for the tape with INSERT; a note on the \
-             tape would move the machine, and a block left out would be missing.",
+        UnclearText = 419, Error, "INSERT may be a block or a note",
+            "The CAM system writes both notes and NC blocks with INSERT. A note in the program would move the machine, and a block left out would be missing.",
             "Write a note as PPRINT / text, and a block of words with a G or an M.";
         /// A unit that the statement does not settle.
-        UnclearUnit = 420, Error, "unit is not clear",
-            "The system writes the same word in files of either unit.",
+        UnclearUnit = 420, Error, "unit is ambiguous",
+            "The CAM system writes the same word in files of either unit.",
             "Name the unit in the statement.";
         /// Points of a frame that the file does not settle.
-        UnclearFrame = 421, Error, "frame of the points is not clear",
-            "The points count in a frame that turns with the table. Where it lies is known only \
-             for one position of the table in a file, and for a turn about X or Y that brings the \
-             tool along TLAXIS.",
-            "Post each position of the table from a file of its own, with TLAXIS and ROTABL before \
-             the first motion.";
+        UnclearFrame = 421, Error, "coordinate system of the points is ambiguous",
+            "The points are in a coordinate system that turns with the table. It is known only for one position of the table in a file, and for a rotation about X or Y that brings the tool along TLAXIS.",
+            "Post each position of the table from a file of its own, with TLAXIS and ROTABL before the first motion.";
         /// A spline that is not read.
         BadSpline = 425, Error, "spline can't be read",
-            "A spline is read as lines where its knots, its control points and the numbers of its \
-             NURBS agree, and the tool stands at its begin; anything else could be another curve.",
+            "A spline is converted to lines if its knots, its control points and the numbers of its NURBS agree, and the tool is at its start; anything else could be another curve.",
             "Write the CL file again with lines and arcs instead of splines.";
     }
 }

@@ -25,8 +25,7 @@ pub type Position = [f64; AXES];
 const FULL_TURN: f64 = 360.0;
 
 /// The way out of a rotary axis that has turned on and on.
-const WITHIN_A_TURN: &str = "let the positions of an axis without travel count within a turn \
-                             (rotary.output = 1, 2 or 4), or give the address more digits";
+const WITHIN_A_TURN: &str = "output positions of an axis without travel within 360 degrees (rotary.output = 1, 2 or 4), or give the address more digits";
 
 /// Scale of X when the tape holds diameters.
 const DIAMETER: f64 = 2.0;
@@ -209,7 +208,7 @@ impl Axis {
     pub(crate) fn write_within_a_turn(&mut self) -> Result<()> {
         if self.scale.abs() != 1.0 {
             return MachineCode::SettingValue.err(format!(
-                "rotary.output counts {} within a turn, and its output is scaled",
+                "rotary.output limits {} to 360 degrees, but its output is scaled",
                 self.letter
             ));
         }

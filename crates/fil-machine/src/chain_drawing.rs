@@ -95,7 +95,7 @@ fn links(commons: &Commons) -> Result<Vec<Link>, Box<Diag>> {
     details.push(match chain.pivot {
         Some(length) => format!("its tip {} mm from the pivot", number(length)),
         None if of(Carries::Head).next().is_some() => {
-            "the control keeps the tip where it is".to_string()
+            "the control keeps the tip in place".to_string()
         }
         None => "no pivot".to_string(),
     });

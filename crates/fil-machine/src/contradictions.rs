@@ -106,7 +106,8 @@ fn start_modes(commons: &Commons, found: &mut Vec<Diag>) {
         let Some(code) = commons.read(at) else { continue };
         let mut known = codes.iter().filter_map(|at| commons.read(*at)).peekable();
         if known.peek().is_some() && !known.any(|known| known == code) {
-            found.push(contradiction(format!("{name} is {code}, which is no code of this mode")));
+            found
+                .push(contradiction(format!("{name} is {code}, which is not a code of this mode")));
         }
     }
 }
@@ -240,8 +241,7 @@ fn translation(commons: &Commons, found: &mut Vec<Diag>) {
         && commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik;
     if shifts && frame_rules::is_scaled(commons) {
         found.push(contradiction(
-            "control.translation shifts the zero of the control, and X, Y or Z is scaled or \
-             shifted on the tape"
+            "control.translation shifts the origin in the control, but X, Y or Z is scaled or shifted in the program"
                 .into(),
         ));
     }
@@ -282,14 +282,11 @@ fn head_before_table(commons: &Commons, found: &mut Vec<Diag>) {
 /// A letter that was given a tape position and no digits of its own: those that stood there were
 /// meant for another word.
 pub(crate) fn without_digits(letter: char, position: u32) -> Diag {
-    let message = format!(
-        "{letter} comes to tape position {position}, and nothing says how its numbers are written"
-    );
+    let message =
+        format!("{letter} is at tape position {position}, but its number format is missing");
     let mut diag = contradiction(message);
     diag.hint = Some(format!(
-        "give address.{letter}.format and address.{letter}.spec too: {letter} = {{ slot = \
-         {position}, format = 4443, spec = 101 }} writes four digits before the point and three \
-         behind it in mm"
+        "set address.{letter}.format and address.{letter}.spec too: {letter} = {{ slot = {position}, format = 4443, spec = 101 }} writes four digits before the point and three after it in mm"
     ));
     diag
 }
@@ -358,8 +355,7 @@ fn frame_of_machine(commons: &Commons, found: &mut Vec<Diag>) {
         && commons.read(loc::HOME_FRAME) == HomeFrame::OfTheMachine
     {
         found.push(contradiction(
-            "home.frame asks for positions in the frame of the machine by G53, which takes the \
-             length of the tool off on a control that calls it by G54 to G59"
+            "home.frame outputs machine coordinates by G53, which cancels the tool length offset on a control that activates it with G54 to G59"
                 .into(),
         ));
     }

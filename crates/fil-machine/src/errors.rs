@@ -5,23 +5,23 @@ fil_diag::codes! {
     pub enum MachineCode {
         /// A value with too many digits.
         Overflow = 501, Error, "value does not fit its address",
-            "A number that lost its leading digits would move the machine somewhere else.",
+            "A number without its leading digits would move the machine somewhere else.",
             "Check the CL value and the format of the address (digits before and after the point).";
         /// A word for an address the machine lacks.
         NoAddress = 502, Error, "the machine has no such address",
-            "The block needs a letter that has no tape position on this machine.",
+            "The block needs a letter that has no position in the block layout of this machine.",
             "Give the address a position in machine.toml, or don't write that word.";
         /// Unreachable tool axis.
         ToolAxis = 508, Error, "the machine can't reach this tool axis",
-            "No position of its rotary axes brings the tool into that direction.",
-            "Check the rotary axes of the machine and their limits, or the part frame.";
+            "No position of the rotary axes points the tool in that direction.",
+            "Check the rotary axes of the machine and their limits, or the orientation of the part.";
         /// Axis limit.
         AxisLimit = 510, Error, "axis limit exceeded",
-            "The motion leaves the travel of the machine.",
+            "The move leaves the travel of the machine.",
             "Check the part's position and the limits in machine.toml.";
         /// A number that rounding would change.
-        Inexact = 512, Error, "the address can't hold this number",
-            "A tool or code number that is rounded is another tool or code; a lead, feed or peck that is rounded away moves the machine otherwise than asked.",
+        Inexact = 512, Error, "address can't hold this number",
+            "A rounded tool or code number is another tool or code; a rounded lead, feed or peck moves the machine differently than programmed.",
             "Give the address more digits after the point (its format in machine.toml), or correct the value.";
         /// Unknown common location.
         CommonLocation = 601, Error, "no such common location",
@@ -49,39 +49,39 @@ fil_diag::codes! {
             "Check that the file is an option file (.pNN) and whole.";
         /// Settings that contradict each other.
         Contradiction = 607, Error, "settings contradict each other",
-            "A program made with them would be read otherwise than it is meant.",
+            "A program made with them would not do what is intended.",
             "Correct one of the settings; `filpost machine show --all` lists them.";
         /// The option file of a lathe.
         LatheOptionFile = 608, Error, "option file of a lathe",
-            "An option file holds what differs from the vendor's own machine, and what the vendor's lathe is has never been published. Read over a mill it would be another machine.",
-            "Name the lathe that it is laid over: `-p fanuc-lathe -m FILE` posts with it, `filpost machine import -p fanuc-lathe FILE` writes all of it as a machine.toml; then check diameters, feeds and threads.";
+            "An option file lists only the differences from the vendor's own machine, and the vendor's lathe has never been published. Over a mill it would describe another machine.",
+            "Name the lathe under it: `-p fanuc-lathe -m FILE` posts with it, `filpost machine import -p fanuc-lathe FILE` writes all of it as a machine.toml. Then check diameters, feeds and threads.";
         /// The machine described twice.
-        DescribedTwice = 609, Error, "the machine is described twice, and not alike",
-            "What an option file lists of the rotary axes says otherwise than the axes that are given: one of the two is another machine.",
-            "Correct the axis chain, or the setting that lists it; a listed setting that is removed says nothing.";
+        DescribedTwice = 609, Error, "conflicting machine descriptions",
+            "The rotary axes listed in an option file differ from the axes that are given, so one of the two describes another machine.",
+            "Correct the axis chain, or correct or remove the setting that lists it.";
         /// A value for an option that the post lacks.
         UnknownOption = 610, Error, "unknown option of the post",
-            "A choice that the post does not know would change nothing, and the program would not be the one that was asked for.",
+            "The post does not have this option, so the program would not be the one you asked for.",
             "`filpost posts NAME` lists the options of a post.";
         /// A value that an option does not take.
         OptionValue = 611, Error, "option of the post has a wrong value",
             "The value is not of the option's type or not among its choices.",
             "`filpost posts NAME` lists the options of a post with their values.";
         /// A wrong declaration of an option.
-        OptionDeclaration = 612, Error, "option of the post is declared wrongly",
+        OptionDeclaration = 612, Error, "wrong declaration of a post option",
             "An option has a type (bool, integer, length, choice, text), a default, a group and a help line.",
             "Correct the declaration; docs/machine.md shows one of each type.";
         /// A setting nobody reads.
         UnusedSetting = 651, Warning, "setting without effect",
-            "A value in this location is kept, and nothing reads it: the program is the same without it.",
+            "Nothing reads this setting: the program is the same without it.",
             "Remove the setting, or do its work in a FIL section.";
         /// Import of a value we can't be sure of.
         DoubtfulImport = 652, Warning, "imported value of uncertain meaning",
             "The numbers of this choice are not published; ours may differ from the vendor's.",
             "Compare the output with a program the machine has run, and set the key by name.";
         /// An old name.
-        RenamedSetting = 653, Warning, "setting with a new name",
-            "A name was wrong or misleading. The old one goes on to mean the same.",
+        RenamedSetting = 653, Warning, "setting has a new name",
+            "The old name was wrong or misleading. It still works.",
             "Write the new name.";
     }
 }

@@ -26,7 +26,7 @@ const SCALES: [(crate::commons::Dbl, f64); 6] = [
 /// True for a machine that cuts under a tilted axis in a frame of its control: by our own
 /// setting, or by the vendor's for planar machining (INTCOM 4687).
 pub(crate) fn asks_for_frames(commons: &Commons) -> bool {
-    commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedFrame
+    commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedWorkPlane
         || commons.read(loc::MOTION_PLANAR)
 }
 
@@ -43,8 +43,7 @@ pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     }
     let mut add = |message: &str| found.push(Diag::new(MachineCode::Contradiction, message));
     if (chain.tool.into_inner() - Vector3::z()).norm() > 1e-9 {
-        add("rotary.frame_output asks for tilted frames, whose Z is the tool, and the tool does \
-             not lie along Z where the machine stands at zero");
+        add("rotary.frame_output needs the tool along Z when the rotary axes are at zero");
     }
     let codes = [loc::ROTARY_CLAMP_CODE, loc::ROTARY_UNCLAMP_CODE].map(|at| commons.read(at));
     let clamps = commons.read(loc::ROTARY_FRAME_CLAMP);
@@ -53,15 +52,16 @@ pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
              releases them (rotary.clamp_code, rotary.unclamp_code)");
     }
     if is_scaled(commons) {
-        add("rotary.frame_output asks for tilted frames, and X, Y or Z is scaled or shifted on \
-             the tape");
+        add(
+            "rotary.frame_output outputs tilted work planes, but X, Y or Z is scaled or shifted in the program",
+        );
     }
 }
 
 /// Under tool-tip control the control turns the words of X, Y and Z into each other, and the
 /// code that begins it takes the length of the tool.
 fn tip_control(commons: &Commons, found: &mut Vec<Diag>) {
-    if commons.read(loc::ROTARY_TIP_OUTPUT) != RotaryTipOutput::ToolTipControl {
+    if commons.read(loc::ROTARY_TIP_OUTPUT) != RotaryTipOutput::Tcpc {
         return;
     }
     let mut add = |message: &str| found.push(Diag::new(MachineCode::Contradiction, message));
@@ -69,21 +69,19 @@ fn tip_control(commons: &Commons, found: &mut Vec<Diag>) {
         .into_iter()
         .any(|at| commons.dbl_opt(at).is_some_and(|scale| scale != 1.0));
     if scaled {
-        add("rotary.tip_output asks for tool-tip control, and X, Y or Z is scaled on the tape");
+        add("rotary.tip_output outputs TCPC, but X, Y or Z is scaled in the program");
     }
     if commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress {
         return;
     }
     if !commons.read(loc::TOOL_LENGTH_FROM_TOOL) {
         add(
-            "rotary.tip_output asks for tool-tip control, which takes the length of the tool, and \
-             tool.length_from_tool calls none",
+            "rotary.tip_output outputs TCPC, which needs a tool length offset, but tool.length_from_tool outputs none",
         );
     }
     if commons.read(loc::TOOL_LENGTH_AT_CHANGE) || commons.dbl_opt(loc::TOOL_LENGTH_Z).is_some() {
         add(
-            "rotary.tip_output asks for tool-tip control, which takes the length of the tool with \
-             its first motion, and tool.length_at_change or tool.length_z calls it before",
+            "rotary.tip_output outputs TCPC, which activates the tool length offset with its first move, but tool.length_at_change or tool.length_z activates it before",
         );
     }
 }
@@ -95,13 +93,15 @@ fn vectors(commons: &Commons, found: &mut Vec<Diag>) {
         return;
     }
     let mut add = |message: &str| found.push(Diag::new(MachineCode::Contradiction, message));
-    if commons.read(loc::ROTARY_TIP_OUTPUT) != RotaryTipOutput::ToolTipControl {
-        add("rotary.tip_form asks for directions of the tool, which have a meaning under \
-             tool-tip control alone (rotary.tip_output = 1)");
+    if commons.read(loc::ROTARY_TIP_OUTPUT) != RotaryTipOutput::Tcpc {
+        add(
+            "rotary.tip_form outputs tool direction vectors, which need TCPC (rotary.tip_output = 1)",
+        );
     }
     if commons.read(loc::ROTARY_OUTPUT) != RotaryOutput::AnyNumberOfTurns {
-        add("rotary.tip_form asks for directions of the tool, and rotary.output for positions \
-             within a turn");
+        add(
+            "rotary.tip_form outputs tool direction vectors, but rotary.output outputs positions within 360 degrees",
+        );
     }
     if commons.int_opt(loc::CONTROL_ROTARY_INDEX) == Some(INDEX_OF_VECTORS) {
         add(

@@ -22,23 +22,29 @@ pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     let mut add = |message: &str| found.push(Diag::new(MachineCode::Contradiction, message));
     let Some(first) = meant.next() else { return };
     if commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext {
-        add("rotary.output counts within a turn, and which way a control with Klartext turns to \
-             such a position hangs on M126 and its parameters");
+        add(
+            "rotary.output outputs positions within 360 degrees, but the direction in which a Klartext control turns to them depends on M126 and its parameters",
+        );
     }
     if mill_turn::mode(commons).is_some() {
-        add("rotary.output counts within a turn, and the axis C of a mill-turn machine counts on");
+        add(
+            "rotary.output outputs positions within 360 degrees, but the C axis of a mill-turn machine counts on",
+        );
     }
     let scaled = |rotary: &Rotary| {
         commons.dbl_opt(SCALE[rotary.axis + 3]).is_some_and(|scale| scale.abs() != 1.0)
     };
     if scaled(first) || meant.any(scaled) {
-        add("rotary.output counts within a turn, and the axis is scaled on the tape");
+        add(
+            "rotary.output outputs positions within 360 degrees, but the axis is scaled in the program",
+        );
     }
     if commons.read(loc::MOTION_RESOLUTION_MANUAL) == MotionResolutionManual::Yes
         && commons.dbl_opt(loc::ROTARY_RESOLUTION).is_some_and(|step| !divides_a_turn(step))
     {
-        add("rotary.output counts within a turn, and rotary.resolution has no whole number of \
-             steps in one");
+        add(
+            "rotary.output outputs positions within 360 degrees, but rotary.resolution does not divide them into whole steps",
+        );
     }
 }
 

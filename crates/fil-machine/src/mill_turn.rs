@@ -155,15 +155,14 @@ pub(crate) fn check(commons: &Commons) -> Result<()> {
     let shifted = |at| commons.dbl_opt(at).is_some_and(|shift| shift != 0.0);
     if shifted(loc::OUTPUT_TRANSLATE_X) || shifted(loc::OUTPUT_TRANSLATE_Y) {
         return refuse(
-            "C turns about X0 Y0, so that output.translate_x and output.translate_y are 0: the \
-             zero of the tape lies on the axis of the spindle",
+            "C turns about X0 Y0, so output.translate_x and output.translate_y must be 0: the program's origin is on the spindle axis",
         );
     }
-    let frames = commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedFrame;
-    let tips = commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl;
+    let frames = commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedWorkPlane;
+    let tips = commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::Tcpc;
     if frames || tips || commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext {
         return refuse(
-            "only a word-address control or a SINUMERIK without frames and tool-tip control has it",
+            "only a word-address control, or a SINUMERIK without tilted work planes and TCPC, has it",
         );
     }
     check_transformations(commons)?;

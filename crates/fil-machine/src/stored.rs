@@ -129,7 +129,7 @@ pub fn check_in_run(kind: Kind, number: u32, value: f64) -> Result<()> {
         return Err(Box::new(diag.hint("carry out MODE/MILL or MODE/TURN")));
     }
     if (kind, number) == (Kind::Int, loc::TAPE_ENCODING.number.into()) {
-        let message = "tape.encoding: a program has one encoding from its first byte to its last";
+        let message = "tape.encoding: a program has one encoding from its first to its last byte";
         let diag = MachineCode::SettingValue.diag(message);
         return Err(Box::new(diag.hint("set it in machine.toml or with --set")));
     }

@@ -147,7 +147,7 @@ impl MachineTables {
             .collect();
         self.present = AxisSet::LINEAR;
         self.tip_output = self.chain.has_rotary()
-            && commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl;
+            && commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::Tcpc;
         self.tip_vectors =
             self.tip_output && commons.read(loc::ROTARY_TIP_FORM) == RotaryTipForm::Vectors;
         self.frame_output = self.chain.has_rotary() && frame_rules::asks_for_frames(commons);

@@ -210,8 +210,7 @@ fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
              machine with one channel list SYNC under words.without_effect in machine.toml.",
         ),
         w::SWITCH => (
-            "it names the point of the tool that the path is for, and the post does not know where \
-             it lies",
+            "it selects the tool point that the path is for, and the post does not know its position",
             "Where the tool data of the control are for that point, list SWITCH under \
              words.without_effect in machine.toml; else let a FIL section call the offset of the \
              point.",
@@ -225,9 +224,7 @@ fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
         ),
         w::ROTATE => (
             turn.as_str(),
-            "Say it with rotary.table_words: 1 where the points stay, 2 where they turn with the \
-             table. Or give the tool axis with each point (MULTAX/ON, GOTO/x,y,z,i,j,k): the post \
-             turns the axes then, and ROTATE can stand under words.without_effect in machine.toml.",
+            "Set rotary.table_words: 1 if the points stay, 2 if they turn with the table. Or give the tool axis with each point (MULTAX/ON, GOTO/x,y,z,i,j,k): the post then positions the axes, and ROTATE can be listed under words.without_effect in machine.toml.",
         ),
         w::HEAD => (
             "it chooses a spindle or channel, and the machine of the post has one",
@@ -237,33 +234,25 @@ fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
         w::ORIGIN => (
             "it moves the zero of the machine against that of the part, and which of the two it \
              names is not in the file",
-            "Say it with input.origin: 1 takes x, y, z off each point, 2 adds them. Or choose the \
-             work offset by SET/OFSETL,n; where the points need no move, list ORIGIN under \
-             words.without_effect in machine.toml.",
+            "Set input.origin: 1 subtracts x, y, z from each point, 2 adds them. Or select the work offset by SET/OFSETL,n; if the points need no shift, list ORIGIN under words.without_effect in machine.toml.",
         ),
         w::TRACUT => (
             "the CAM system or APT processor transforms the path by it; in a CL file it is not \
              known whether the points are transformed already",
-            "Where they are, list TRACUT under words.without_effect in machine.toml; where they \
-             are not, input.tracut = 1 moves them.",
+            "If they are, list TRACUT under words.without_effect in machine.toml; if not, set input.tracut = 1 to transform them.",
         ),
         w::COPY | w::INDEX => (
             "an APT processor writes the repeated path out; in a CL file the copies would be \
              missing",
-            "Let the CAM system or APT processor expand the copies. Where the path stands in the \
-             file already, list INDEX and COPY under words.without_effect in machine.toml.",
+            "Expand the copies in the CAM system or APT processor. If the path is in the file already, list INDEX and COPY under words.without_effect in machine.toml.",
         ),
         w::ROTABL => (
             turn.as_str(),
-            "Say it with rotary.table_words: 1 where the points stay, 2 where they turn with the \
-             table. Where each point of the file has its \
-             tool axis in the part (MULTAX/ON), the axes turn the table already: list ROTABL under \
-             words.without_effect in machine.toml.",
+            "Set rotary.table_words: 1 if the points stay, 2 if they turn with the table. If each point of the file has its tool axis in the part (MULTAX/ON), the axes turn the table already: list ROTABL under words.without_effect in machine.toml.",
         ),
         _ => (
             "it changes the path or the frame, and the post does not know how",
-            "Let a FIL section take it, or list it under words.without_effect in machine.toml \
-             where it changes nothing on the machine.",
+            "Take it with a FIL section, or list it under words.without_effect in machine.toml if it changes nothing on the machine.",
         ),
     };
     let mut diag =

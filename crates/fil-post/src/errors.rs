@@ -5,277 +5,276 @@ fil_diag::codes! {
     pub enum PostCode {
         /// Motion without position.
         ArcStart = 503, Error, "arc without a start point",
-            "An arc starts where the motion before it ended, and no motion came before, or the machine \
-             stands elsewhere: behind a cycle, a text, TRANS, or a FROM between motions.",
-            "Put a GOTO before the CIRCLE, after all that moves the axes otherwise.";
+            "An arc starts where the previous move ended. No move came before it, or the tool is no longer there: after a cycle, a foreign block, TRANS, or a FROM between moves.",
+            "Put a GOTO to the start point before the CIRCLE, after everything else that moves the axes.";
         /// Radii disagree.
-        ArcRadius = 504, Error, "the radii of the arc disagree",
-            "Start and end of an arc must lie at the same distance from its center.",
+        ArcRadius = 504, Error, "arc radii at start and end disagree",
+            "Start and end of an arc must be at the same distance from its center.",
             "Check center, start and end of the CIRCLE and the GOTO after it.";
         /// CIRCLE without GOTO.
         ArcEnd = 505, Error, "CIRCLE without an end point",
-            "A CIRCLE takes its end from the GOTO that follows at once.",
+            "A CIRCLE takes its end point from the GOTO right after it.",
             "Put the GOTO of the end point after the CIRCLE.";
         /// A word form.
-        WordForm = 506, Error, "form of this post word is not understood",
-            "What can't be read for sure is not guessed: the block would be a guess too.",
-            "Compare the record with the documented forms of the word.";
+        WordForm = 506, Error, "post word in an unknown form",
+            "filpost does not guess what an unknown form means: the block would be a guess too.",
+            "`filpost explain WORD` shows the forms of a post word.";
         /// What the language of the control can't say.
-        Family = 560, Error, "the language of the control has no word for this",
-            "Controls of other families have no G functions of their own choice, no skip mark, or no such cycle; what they can't say is not left out.",
-            "Take the record with a FIL section and write with INSERT what the control shall do.";
+        Family = 560, Error, "the control has no code for this",
+            "This family of controls has no free choice of G codes, no block delete, or no such cycle. filpost does not leave out what the control can't do.",
+            "Take the record with a FIL section, and write the blocks with INSERT.";
         /// A missing code.
         NoCode = 507, Error, "the machine has no code for this",
-            "The setting that holds the preparatory or auxiliary function is absent.",
+            "The setting with the G or M code is empty.",
             "Set the code in machine.toml, or take the record with a FIL section.";
         /// Feed motion without feed.
-        NoFeed = 509, Error, "feed motion without a feed",
-            "A feed motion needs a feed, and none was given before it.",
+        NoFeed = 509, Error, "feed move without a feed",
+            "A feed move needs a feed, and none was given before it.",
             "Put a FEDRAT before the first GOTO that is not rapid.";
         /// Sequence of cycle.
-        CycleForm = 511, Error, "cycle can't be carried out",
-            "A value the cycle needs is missing or makes no sense.",
+        CycleForm = 511, Error, "canned cycle with missing or invalid values",
+            "A value of the cycle is missing or invalid.",
             "Give DEPTH, a feed and CLEAR (and STEP for DEEP and BRKCHP).";
         /// No unit.
-        NoUnit = 514, Error, "the unit is not known",
-            "A length or feed means nothing before the CL file, the machine or the user says mm or inch.",
-            "Put UNITS / MM or UNITS / INCHES first, give --units mm or --units inch, or set units.mode of the machine (1 inch, 2 mm).";
+        NoUnit = 514, Error, "no unit given: mm or inch",
+            "Lengths and feeds have no meaning until the CL file, the machine or the user sets mm or inch.",
+            "Put UNITS / MM or UNITS / INCHES first, give --units mm or --units inch, or set units.mode (1 inch, 2 mm).";
         /// UNITS in mid-file.
-        UnitChange = 515, Error, "the unit changes in mid-file",
-            "Positions, feeds and limits given before would be read in the other unit; and of two statements that differ one is wrong.",
+        UnitChange = 515, Error, "unit changes within the CL file",
+            "Positions, feeds and limits given before would be read in the other unit, so one of the two statements is wrong.",
             "Keep one unit in a CL file.";
         /// Units that contradict each other.
         Units = 715, Error, "units contradict each other",
-            "The unit that was given with --units, what the CL file says and what the machine takes must be the same.",
-            "Leave out --units where the CL file says UNITS, or correct units.mode of the machine.";
+            "--units, the CL file and the machine must have the same unit.",
+            "Leave out --units if the CL file has UNITS, or correct units.mode of the machine.";
         /// Blocks after the end.
         AfterEnd = 516, Error, "block after the end of the program",
             "The control stops at M2 or M30 and never reads what comes after it.",
-            "Move END or REWIND behind the last record that writes.";
+            "Move END or REWIND after the last record that writes a block.";
         /// A character that must not reach the tape.
-        TextCharacter = 517, Error, "character that must not reach the tape",
-            "A percent sign ends the tape, and a control character may do anything.",
-            "Take the character out of the text.";
+        TextCharacter = 517, Error, "character not allowed in the program",
+            "A percent sign ends the program at the control, and control characters have unpredictable effects.",
+            "Remove the character from the text.";
         /// A program number.
         ProgramNumber = 518, Error, "program number out of range",
             "A program number has four digits on most controls, five or eight on some, and never more.",
-            "Set another program.number.";
+            "Set program.number to another number.";
         /// Compensation left on.
         CompensationOn = 519, Error, "cutter compensation is still on",
-            "The control would go on to compensate with another tool, or alarm.",
+            "The control would keep compensating with the wrong tool, or alarm.",
             "Put CUTCOM / OFF before it.";
         /// Compensation on an arc.
-        CompensationOnArc = 520, Error, "cutter compensation begins or ends on an arc",
-            "Controls take up and give up the offset on a straight line only.",
-            "Put a straight motion between CUTCOM and the CIRCLE.";
+        CompensationOnArc = 520, Error, "cutter compensation starts or ends on an arc",
+            "Controls apply and cancel the offset only on a straight move.",
+            "Put a straight move between CUTCOM and the CIRCLE.";
         /// Compensation of a path in a mirror.
-        CompensationSide = 530, Error, "left of the path is right of it on the tape",
-            "In a mirror, and seen from below, the tool would cut on the other side of the path.",
-            "Let the CAM system mirror the path, its compensation with it, or take CUTCOM with a FIL section that says the side on the tape.";
+        CompensationSide = 530, Error, "mirroring swaps the side of cutter compensation",
+            "When the path is mirrored, or seen from below, left and right change places: the tool would cut on the wrong side.",
+            "Mirror the path and its compensation in the CAM system, or take CUTCOM with a FIL section that writes the side of the mirrored path.";
         /// Compensation that is lost.
-        CompensationLost = 521, Doubt, "cutter compensation is no longer certain",
-            "A text that can't be read may have switched it, and saying it again would begin it anew.",
+        CompensationLost = 521, Doubt, "cutter compensation state is uncertain",
+            "A foreign block may have switched it, and restating the code would start compensation again.",
             "Put the text before CUTCOM or after CUTCOM / OFF.";
         /// Something in a cycle.
-        InCycle = 522, Error, "not in an active cycle",
-            "The next GOTO would drill a hole, and the control would be in its cycle.",
+        InCycle = 522, Error, "not allowed in an active cycle",
+            "The cycle is still active: the next GOTO would drill a hole.",
             "Put CYCLE / OFF before it.";
         /// Sense of an arc.
-        ArcSense = 523, Error, "the arc seems to turn the wrong way",
-            "CAM systems disagree about the axis of a CIRCLE; read in the wrong dialect every arc turns the other way.",
-            "Choose the dialect of the CL file with --dialect; write an arc that is right as it is as lines.";
+        ArcSense = 523, Error, "arc seems to run in the wrong direction",
+            "CAM systems disagree about the axis of a CIRCLE. Read in the wrong dialect, every arc runs the other way.",
+            "Choose the dialect of the CL file with --dialect. If the arc is right as it is, write it as lines.";
         /// A tool that lies across Z.
-        Leaning = 538, Error, "the tool lies across Z",
-            "Z alone would move the tool sideways, through the part where it stands in it.",
-            "Bring the tool out by RAPID and GOTO, and turn it upright there.";
+        Leaning = 538, Error, "Z retract with the tool lying across Z",
+            "Z alone would drag the tool sideways through the part.",
+            "Retract the tool with RAPID and GOTO, and turn it upright there.";
         /// A second tool, or zero, with which the machine turns.
-        TurnedApart = 539, Error, "the machine turns for another tool or zero",
-            "Positions of the axes hold the distance from the pivot of a head to the tip, and from the zero to the axis of a table. Both are stated once for the machine.",
-            "Post with tool-tip control or in tilted frames, where the control knows both; or one program each. Levels of the machine's Z: turn the tool upright before them, or set home.frame = 1.";
+        TurnedApart = 539, Error, "rotary axes were positioned for another tool or work offset",
+            "Axis positions include the distance from the pivot of a head to the tool tip, and from the origin of the work offset to the axis of a table. The machine has one setting for each.",
+            "Post with TCPC or tilted work planes, where the control knows both, or make one program for each. For a retract in machine Z, turn the tool upright first, or set home.frame = 1.";
         /// A rotary axis the long way round.
-        Unwinding = 524, Error, "a rotary axis would unwind while cutting",
-            "Its limits leave only another way to the tool axis, and the tool would cut on the way.",
-            "Have the tool retract there (repos.retract_distance with repos.feed_method = 1 or a macro _REPOS), retract before it in the CL file, or give the axis more travel.";
+        Unwinding = 524, Error, "rotary axis would unwind while cutting",
+            "The axis limits leave only another rotary solution for this tool axis, and the tool would cut while the axes turn to it.",
+            "Let the tool retract: set repos.retract_distance with repos.feed_method = 1, or write a macro _REPOS. Or retract in the CL file, or give the axis more travel.";
         /// A limit that nothing leads past.
-        NoAlternative = 527, Error, "a rotary axis is at its limit, and nothing leads on",
-            "The tool would retract, the machine turn to other positions for the same tool axis, and the tool return; here there are none from which the motion goes on, or the way out is not known.",
-            "Give repos.retract_distance, give the axis more travel, or divide the path in the CAM system and retract between its parts.";
+        NoAlternative = 527, Error, "rotary axis at its limit has no other solution",
+            "The tool would retract, the rotary axes would turn to another solution for the same tool axis, and the tool would return. Here no other solution lets the path continue, or the retract is not known.",
+            "Set repos.retract_distance, give the axis more travel, or split the path in the CAM system and retract between its parts.";
         /// A pole at feed.
-        Pole = 528, Error, "a pole of the machine lies on a feed motion",
-            "Beside the direction of a rotary axis the machine turns far for a small change of the tool axis, and the tool leans out of the plane of its ends on the way.",
-            "Have the CAM system give more points there or keep the tool axis away from the pole; rotary.axis_tolerance is what is allowed, 0 looks at none.";
+        Pole = 528, Error, "feed move passes a pole of the rotary axes",
+            "Near the direction of a rotary axis the axes turn far for a small change of the tool axis, and the tool tilts out of the plane of its end positions.",
+            "Add points there in the CAM system, or keep the tool axis away from the pole. rotary.axis_tolerance is the allowed deviation; 0 switches the check off.";
         /// A retract at a limit.
-        Repositioned = 529, Warning, "the tool retracts at the limit of a rotary axis",
-            "The machine turns to other positions for the same tool axis, and the tool comes back to the same point.",
-            "Look whether the retract is far enough for the part to turn; repos.feed_warning = 0 says nothing.";
+        Repositioned = 529, Warning, "tool retracts at the limit of a rotary axis",
+            "The rotary axes turn to another solution for the same tool axis, and the tool returns to the same point.",
+            "Check that the retract is far enough for the part to turn. repos.feed_warning = 0 silences this warning.";
         /// A motion outside of the travel that the machine allows.
-        BeyondTravel = 586, Warning, "X, Y or Z leaves its travel",
-            "repos.check_linear lets the axis go there with a warning (repos.x_exceeded to repos.z_exceeded = 2); without it the motion would be refused.",
-            "Look whether the machine gets there, move the part, or let the machine take other positions of its rotary axes there (1).";
+        BeyondTravel = 586, Warning, "X, Y or Z exceeds its travel",
+            "repos.check_linear lets the axis go there with a warning (repos.x_exceeded to repos.z_exceeded = 2); without it the move would be refused.",
+            "Check that the machine gets there, move the part, or set 1 instead of 2 to use another rotary solution there.";
         /// A rapid motion to other positions than the nearest.
-        RapidRepositioned = 587, Warning, "a rapid motion takes other positions of the rotary axes",
-            "The nearest positions for the tool axis lie past a limit, or the motions behind a RAPID would come to one from there.",
-            "Look whether the tool is clear of the part while the machine turns; repos.rapid_retract = 1 takes it out before, repos.rapid_warning = 0 says nothing.";
+        RapidRepositioned = 587, Warning, "rapid move uses another rotary solution",
+            "The nearest solution for the tool axis is past a limit, or the moves after the RAPID would run into one from there.",
+            "Check that the tool is clear of the part while the axes turn. repos.rapid_retract = 1 retracts it first; repos.rapid_warning = 0 silences this warning.";
         /// What a look-ahead has tried.
-        LookAhead = 595, Warning, "what the look-ahead of a RAPID has tried",
-            "repos.optimise_trace lists for each RAPID from which positions of the rotary axes the motions behind it meet how many limits and poles, and which are taken.",
-            "Nothing is wrong; repos.optimise_trace = 0 lists nothing.";
+        LookAhead = 595, Warning, "rotary solutions compared before a rapid move",
+            "repos.optimise_trace lists for each RAPID the rotary solutions that were tried, how many limits and poles the moves after it meet from each, and which one is used.",
+            "Set repos.optimise_trace = 0 to switch this list off; nothing is wrong.";
         /// Length of a tool axis.
-        AxisLength = 525, Error, "not a tool axis",
-            "A tool axis has length 1; six values of another length may be two points. After MULTAX / OFF there is none but 0,0,1.",
-            "Check the GOTO; MULTAX / ON allows axes of any length but zero.";
+        AxisLength = 525, Error, "invalid tool axis",
+            "A tool axis has length 1; six values of another length may be two points. After MULTAX / OFF only the tool axis 0,0,1 is allowed.",
+            "Check the GOTO; MULTAX / ON allows axes of any length except zero.";
         /// A part on both sides of a skip mark.
-        SkippedPart = 526, Error, "part of a command stands in blocks that may be skipped",
-            "With the skip switch on the control would get one half of it only.",
+        SkippedPart = 526, Error, "command is split by a block-delete section",
+            "With block delete on, the control would run only half of the command.",
             "Put the whole command on one side of OPSKIP.";
         /// A motion that is safe at one position of the skip switch only.
-        SkippedLevel = 531, Error, "no way is safe with the skipped blocks and without them",
-            "The skip switch decides where the tool stands behind OPSKIP / OFF. Which axes go first, and which level is the one before a cycle, would be right for one of the two places only.",
-            "Put a RAPID to a level that is above both behind OPSKIP / OFF, and one to a known level before OPSKIP / ON.";
+        SkippedLevel = 531, Error, "no move is safe with block delete on and off",
+            "The position of the tool after OPSKIP / OFF depends on the block delete switch. The order of the axes, and the initial plane of a cycle, would be right for one of the two positions only.",
+            "After OPSKIP / OFF, put a RAPID to a height above both positions; before OPSKIP / ON, one to a known height.";
         /// A rapid motion from a height that is not known.
-        UnknownLevel = 532, Doubt, "a rapid motion from a height that is not known",
-            "A text, a call of a subprogram or another zero came before it, and the post can't tell whether the tool stands above the end of the motion or below. Up first could be a plunge, across first could go through the part.",
-            "Put GOHOME or RETRCT before it, LOADTL, a text that goes to the machine's reference point (G91 G28 Z0.), or RAPID with a GOTO straight up; before a change of the work offset go up with RAPID.";
+        UnknownLevel = 532, Doubt, "rapid move from an unknown height",
+            "A foreign block, a subprogram call or a new work offset came before it, so the tool may be above or below the end point. Z first could plunge, XY first could go through the part.",
+            "Before it, put GOHOME, RETRCT, LOADTL, a block to the machine's reference point (G91 G28 Z0.), or RAPID with a GOTO straight up. Before a new work offset, retract with RAPID.";
         /// A rapid motion at a height that counts from another zero.
-        ShiftedLevel = 533, Warning, "a rapid motion across behind another zero",
-            "The work offset or the length of the tool has changed since the tool was brought to its height. How high it stands above the part is in the tables of the control, not in the CL file.",
-            "Look whether the tool is clear of both zeros there; GOHOME, RETRCT or LOADTL before the change leaves no doubt.";
+        ShiftedLevel = 533, Warning, "rapid XY move at a Z from another work offset",
+            "The work offset or the tool length offset has changed since the tool went to its height. How far it is above the part depends on the offset tables of the control.",
+            "Check that the tool is clear in both offsets, or put GOHOME, RETRCT or LOADTL before the change.";
         /// A feed a turn of a spindle that stands.
-        FeedStands = 534, Error, "feed a turn with the spindle standing",
-            "The control counts the feed in turns of the spindle, and waits for them where it stands.",
-            "Put SPINDL / RPM with a direction before it, or give the feed a minute.";
+        FeedStands = 534, Error, "feed per revolution with the spindle stopped",
+            "The control counts the feed in spindle revolutions, and waits for them while the spindle is stopped.",
+            "Put SPINDL / RPM with a direction before it, or give a feed per minute.";
         /// A motion at feed of a rotary axis that may stand anywhere.
-        UnknownTurn = 535, Doubt, "a motion at feed from where a rotary axis may stand anywhere",
-            "A text or a call of a subprogram came before it and may have turned the axis: the motion would turn it back at feed by any angle, and the tip would leave its line.",
-            "Put RAPID and a GOTO before it, which turns the axis to where it belongs, or a text that says where it stands (G0 A0.).";
+        UnknownTurn = 535, Doubt, "feed move from an unknown rotary position",
+            "A foreign block or a subprogram call came before it and may have turned the axis. The move would turn it back at feed by any angle, and the tip would leave its line.",
+            "Put RAPID and a GOTO before it, which position the axis, or a block with its position (G0 A0.).";
         /// A motion without the length of the tool.
-        LengthTaken = 536, Doubt, "a motion without the length of the tool",
-            "A text has taken the length of the tool off, or changed the tool without calling its length. Z of the CL file counts from the tip, and the control would bring the spindle nose there, or the tip by the length of another tool.",
-            "Let the text, or another one behind it, call the length again (G43 H1, on a SINUMERIK D1), or put LOADTL before the motion.";
+        LengthTaken = 536, Doubt, "tool length offset is not active",
+            "A foreign block cancelled the tool length offset, or changed the tool without activating its offset. Z of the CL file is the tool tip: the control would move the spindle nose there, or use the length of another tool.",
+            "Activate the offset in this block or a later one (G43 H1, on a SINUMERIK D1), or put LOADTL before the move.";
         /// Another work offset than that of the CL file.
-        OtherOffset = 550, Warning, "a block of an author replaces the work offset of the CL file",
-            "SET/OFSETL has chosen a work offset, and a text, a POSTN or a machine block has another one: what follows is cut from another zero than the CL file asks for.",
-            "Leave the work offset out of the text, or put SET/OFSETL behind it.";
+        OtherOffset = 550, Warning, "foreign block replaces the work offset of the CL file",
+            "SET/OFSETL selected a work offset, and an INSERT, a POSTN or a machine block has another one: the moves after it are cut in that offset.",
+            "Remove the work offset from the text, or put SET/OFSETL after it.";
         /// A program number within a program.
-        SecondProgram = 551, Warning, "a second program number",
-            "The post has written a program number, and a text begins another program before the end of this one. A control that reads the file stores two programs, the first one without an end.",
-            "Say the number by PARTNO or program.number and leave it out of the text, or set program.number_address = \"none\"; a subprogram belongs behind the end of the program.";
+        SecondProgram = 551, Warning, "second program number",
+            "The post wrote a program number, and a foreign block starts another program before the end of this one. The control would store two programs, the first without an end.",
+            "Set the number by PARTNO or program.number and remove it from the text, or set program.number_address = \"none\". Put a subprogram after the end of the program.";
         /// A rotary axis that is clamped.
-        TurnsClamped = 537, Error, "a clamped rotary axis would turn",
-            "CLAMP/ON or a text has clamped the rotary axes, and nothing has released them since: the drive would turn against the brake, or the control would stop.",
-            "Put CLAMP / OFF before the motion that turns the machine.";
+        TurnsClamped = 537, Error, "clamped rotary axis would turn",
+            "CLAMP/ON or a foreign block clamped the rotary axes, and nothing has released them since: the drive would turn against the brake, or the control would alarm.",
+            "Put CLAMP / OFF before the rotary move.";
         /// A rapid along a leaning tool that is not straight.
-        RapidBends = 540, Error, "rapid that is not straight along a leaning tool",
-            "Along a tool that a head leans a rapid block moves two or three axes, and this control drives each of them at its own speed (rapid.straight = 2), so that the tool would leave its line, into the part.",
-            "Let the CAM system write these ways at feed, or switch the control to straight rapid motions and say rapid.straight = 1.";
+        RapidBends = 540, Error, "dog-leg rapid with a tilted tool",
+            "With a tilted head, a rapid along the tool moves two or three axes. This control moves each of them at its own speed (rapid.straight = 2), so the tool would leave its line and hit the part.",
+            "Output these moves at feed in the CAM system, or switch the control to straight rapids and set rapid.straight = 1.";
         /// A block that is too long.
-        BlockLength = 541, Error, "block longer than the control reads",
-            "The rest of a block that is longer than the control's buffer would be lost.",
-            "Shorten the text, drop blanks with tape.blank, or correct tape.max_block of the machine.";
+        BlockLength = 541, Error, "block is longer than the control reads",
+            "The control would lose the end of a block that is longer than its buffer.",
+            "Shorten the text, remove blanks with tape.blank, or correct tape.max_block of the machine.";
         /// A letter that the encoding of the tape lacks.
-        TapeLetter = 543, Error, "letter that the encoding of the program lacks",
-            "The program is written in a code page of the control (tape.encoding), which has no byte for this letter. Another letter in its place would say something else.",
-            "Write the text with letters of that page, choose the page of the control with tape.encoding, or have all texts in ASCII with tape.characters = 1.";
+        TapeLetter = 543, Error, "character not available in the program's encoding",
+            "The program is written in a code page of the control (tape.encoding), which lacks this character. A substitute would change the text.",
+            "Use characters of that code page, set tape.encoding to the control's code page, or write all texts in ASCII with tape.characters = 1.";
         /// Blocks without a motion under compensation.
-        StillBlocks = 572, Warning, "blocks without a motion in cutter compensation",
-            "Several blocks that move nothing in the plane of compensation (M functions, a dwell, a stop, a depth) stand between two motions under G41 or G42. A control that reads few blocks ahead does not see the second motion then, and cuts too much or too little at the corner.",
-            "Put what stands between before CUTCOM or behind CUTCOM/OFF; ignore this where the control reads as many blocks ahead, or the path goes straight on.";
+        StillBlocks = 572, Warning, "too many non-motion blocks during cutter compensation",
+            "Several blocks without a move in the compensation plane (M functions, a dwell, a stop, a depth) come between two moves under G41 or G42. A control that reads few blocks ahead does not see the second move, and cuts too much or too little at the corner.",
+            "Put these blocks before CUTCOM or after CUTCOM/OFF. Ignore this if the control reads as many blocks ahead, or the path goes straight on.";
         /// A feed a turn, of one of two spindles.
-        FeedOfSpindle = 573, Warning, "a feed a turn beside the second spindle",
-            "The second spindle turns by spindle.side_cw_code, and no setting says which spindle the control counts: a feed a turn may be that of the main one, which stands or turns at another speed.",
-            "Set spindle.side_master_code and spindle.main_master_code (a SINUMERIK: spindle.side_number), or give feeds a minute; ignore this where the codes of the second spindle make the control count it.";
+        FeedOfSpindle = 573, Warning, "feed per revolution while another spindle is the master",
+            "The sub-spindle runs by spindle.side_cw_code, and no setting selects the master spindle: the feed may follow the main spindle, which is stopped or turns at another speed.",
+            "Set spindle.side_master_code and spindle.main_master_code (on a SINUMERIK spindle.side_number), or give feeds per minute. Ignore this if the codes of the sub-spindle make it the master.";
         /// A motion of too many parts.
-        TooManyParts = 580, Error, "a motion would be divided too often",
-            "While rotary axes turn, the tip leaves its line; to keep it there, or to say its feed, takes too many blocks. So do the lines of an arc of many turns.",
-            "Give a larger LINTOL, rotary.tolerance or circle.chord_tolerance, fewer TIMES, or a higher feed; check that the part lies near the rotary axes.";
+        TooManyParts = 580, Error, "linearization needs too many segments",
+            "While rotary axes turn, the tip leaves its line; keeping it there, or its feed constant, takes too many blocks. So do the lines of an arc of many turns.",
+            "Increase LINTOL, rotary.tolerance or circle.chord_tolerance, reduce TIMES, or increase the feed. Check that the part is near the rotary axes.";
         /// A feed a revolution while the machine turns.
-        RotaryFeedUnknown = 581, Error, "feed of a motion that turns the machine is not known",
-            "The time of such a motion is found from the way of the tip and its feed a minute.",
+        RotaryFeedUnknown = 581, Error, "feed of a rotary move is unknown",
+            "The time of a rotary move is the path of the tip divided by its feed per minute.",
             "Put SPINDL before it, or give the feed in MMPM or IPM.";
         /// A thread and a turn.
-        ThreadTurns = 582, Error, "the machine would turn while a thread is cut",
-            "The block of a thread moves X, Y and Z only.",
-            "Put the change of the tool axis before or after the thread.";
+        ThreadTurns = 582, Error, "rotary move within a thread",
+            "A threading block moves X, Y and Z only.",
+            "Change the tool axis before or after the thread.";
         /// Surface speed without a limit.
-        SpeedLimit = 583, Error, "surface speed without a highest speed",
-            "At constant surface speed the spindle turns faster the nearer the tool comes to its axis; what stops it must be said before.",
-            "Give SPINDL / MAXRPM, or spindle.css_limit; where the control limits it by itself, spindle.css_unlimited = 1.";
+        SpeedLimit = 583, Error, "constant surface speed without a speed limit",
+            "At constant surface speed the spindle turns faster the nearer the tool comes to its axis, so a highest speed must be set first.",
+            "Give SPINDL / MAXRPM, or set spindle.css_limit. If the control limits the speed itself, set spindle.css_unlimited = 1.";
         /// A speed above MAXRPM.
-        AboveSpeedLimit = 592, Warning, "spindle speed above the highest speed in force",
-            "The highest speed that MAXRPM has set stays in force until another one comes. Many controls hold each speed of the spindle to it, so that it may turn slower than asked for.",
-            "Give SPINDL its own MAXRPM, at or above the speed.";
+        AboveSpeedLimit = 592, Warning, "spindle speed above the active limit",
+            "The limit of MAXRPM stays active until a new one is given. Many controls hold every spindle speed to it, so the spindle may turn slower than programmed.",
+            "Give this SPINDL its own MAXRPM, at or above the speed.";
         /// No such station.
-        Station = 584, Error, "the turret has no such station",
-            "The number of the tool is above that of the last station, and the turret would turn to another one, or alarm.",
-            "Correct the number of the tool, or turret.stations of the machine.";
+        Station = 584, Error, "turret has no such station",
+            "The tool number is above the last station: the turret would turn to another one, or alarm.",
+            "Correct the tool number, or turret.stations of the machine.";
         /// A thread that can't be cut.
         Thread = 585, Error, "thread can't be cut",
-            "A value the thread needs is missing or makes no sense, or the machine is in a mode in which no thread can be cut.",
-            "Give a lead, a depth and passes above zero, two points of the crest, and turns of the spindle (SPINDL / RPM), without cutter compensation.";
+            "A value of the thread is missing or invalid, or the machine is in a mode without threading.",
+            "Give a lead, a depth and passes above zero, two points of the crest, and a spindle speed (SPINDL / RPM), without cutter compensation.";
         /// Something under tool-tip control.
-        TipControl = 588, Error, "not under tool-tip control",
-            "The control needs the length of the tool for it, and ends it only where the machine may turn its tables back to zero.",
-            "Put LOADTL before it, or write positions of the axes with rotary.tip_output = 0.";
+        TipControl = 588, Error, "not allowed under TCPC",
+            "TCPC needs the tool length, and can end only where the tables may turn back to zero.",
+            "Put LOADTL before it, or output axis positions with rotary.tip_output = 0.";
         /// Something in a tilted frame.
-        Frame = 589, Error, "not in a tilted frame",
-            "A tilted frame stands still, and the machine turns to it only where the tool is away from the part.",
-            "Put LOADTL, GOHOME or RETRCT before the new tool axis, give home.retract_z, or write positions of the axes with rotary.frame_output = 0.";
+        Frame = 589, Error, "not allowed in a tilted work plane",
+            "A tilted work plane does not move, and the machine turns to it only while the tool is away from the part.",
+            "Put LOADTL, GOHOME or RETRCT before the new tool axis, set home.retract_z, or output axis positions with rotary.frame_output = 0.";
         /// Compensation in a plane that the tool is not square to.
-        CompensationAcross = 544, Error, "cutter compensation across the tool",
-            "The tool does not lie square to the plane in which the control compensates it, so that the path would be shifted along the tool, into the part: a head leans it, a table has turned the plane that CUTCOM names, or the plane of the program is another one.",
-            "Leave the plane out where the tool stands along Z of the control, name the plane that it is square to where a head has turned it, or let the CAM system compensate.";
+        CompensationAcross = 544, Error, "compensation plane is not normal to the tool axis",
+            "The control would shift the path along the tool, into the part: a head tilts the tool, a table has turned the plane that CUTCOM names, or another plane is active.",
+            "Leave the plane out if the tool is along Z of the control, name the plane normal to the tool if a head has turned it, or compensate in the CAM system.";
         /// A word that an edit takes out, or changes, and that can't be said again.
-        EditedWord = 545, Doubt, "an editing macro changes what the post goes on from",
-            "A macro (_OUTPTP, _MCDWT) or REPLAC takes a word out of a block or changes it. Most words are said again by the next block that needs them; this one can't be: what follows would be carried out as if it stood.",
-            "Let the macro leave the word as it is, or put another of its kind in its place; take the record with a FIL section where the program shall be without it.";
+        EditedWord = 545, Doubt, "editing macro changes a word the post relies on",
+            "A macro (_OUTPTP, _MCDWT) or REPLAC removes or changes a word of a block. The next block that needs a word restates most words, but not this one: the post would go on as if it had been output.",
+            "Keep the word in the macro, or replace it by another one of its group. To write the program without it, take the record with a FIL section.";
         /// A second frame in one file.
-        OtherFrame = 549, Error, "the points may be of another frame",
-            "CSYS, MSYS and their like name the frame of the points. Where a file names a second one, its points may be those of the part all through or those of the new frame.",
-            "Post each clamping from a file of its own; list the word under words.without_effect where all points are of one frame; input.csys = 1 moves the points of each frame into the first.";
+        OtherFrame = 549, Error, "points may be in another coordinate system",
+            "CSYS, MSYS and similar words name the coordinate system of the points. If a file names a second one, its points may be in the first system throughout, or in the new one.",
+            "Post each clamping from its own file; list the word under words.without_effect if all points are in one system; set input.csys = 1 to convert all points to the first system.";
         /// Something in the wrong mode of a mill-turn machine.
-        MillTurn = 561, Error, "not in this mode of a mill-turn machine",
-            "MODE/MILL makes the main spindle an axis that live tools mill by; MODE/TURN makes it a spindle again. What belongs to one of the two can't be done in the other.",
+        MillTurn = 561, Error, "not allowed in this mode of a mill-turn machine",
+            "MODE/MILL makes the main spindle a rotary axis for live tools; MODE/TURN makes it a spindle again. Each mode excludes functions of the other.",
             "Put MODE/MILL or MODE/TURN before it, or take the record with a FIL section.";
         /// A motion that polar interpolation can't make.
-        Polar = 562, Error, "not in polar interpolation",
-            "Without Y a live tool along Z mills in the plane of X and C. That begins at a rapid motion, and the spindle can't turn by half a turn at once where the path crosses its axis.",
-            "Put RAPID before the first motion, and keep the path away from the axis of the spindle.";
+        Polar = 562, Error, "not possible in polar interpolation",
+            "Without Y, a live tool along Z mills in the plane of X and C. The mode starts at a rapid move, and the spindle can't jump by half a turn where the path crosses its axis.",
+            "Put RAPID before the first move, and keep the path away from the axis of the spindle.";
         /// A motion that cylindrical interpolation can't make.
-        Cylinder = 563, Error, "not on a cylinder about the spindle",
-            "A live tool along X that cuts while C turns goes along a cylinder of one radius, and its feed counts there.",
-            "Cut at one distance from the axis of the spindle with the tool axis through it, at a feed a minute; plunge and retract while C stands.";
+        Cylinder = 563, Error, "not possible in cylindrical interpolation",
+            "A live tool along X that cuts while C turns follows a cylinder of one radius, and its feed applies there.",
+            "Cut at one distance from the axis of the spindle with the tool axis through it, at a feed per minute. Plunge and retract while C is stopped.";
         /// A word within a turn that the control would read another way.
-        WayRound = 564, Error, "which way a rotary axis turns can't be written",
-            "The machine counts the positions of this axis from 0 to 360 degrees, and by its way to read them the axis would turn the other way round, or which way is left open.",
-            "Go there by a position in between, or write positions that the control reads in one way (rotary.output, rotary.zero_sign).";
+        WayRound = 564, Error, "direction of a rotary axis can't be programmed",
+            "The machine counts this axis from 0 to 360 degrees. By its direction rule the axis would turn the other way, or either way.",
+            "Add a position in between, or output positions with a clear direction (rotary.output, rotary.zero_sign).";
         /// A feed motion of an axis that can only index.
-        Indexing = 565, Error, "the axis can only index",
-            "The machine turns this axis at rapid, from one position to the next, and can't cut while it turns (rotary.index_only).",
-            "Turn it in a RAPID, with the tool away from the part, or post for a machine whose axis can feed.";
+        Indexing = 565, Error, "feed move of an index-only axis",
+            "The machine turns this axis at rapid from position to position, and can't cut while it turns (rotary.index_only).",
+            "Turn it in a RAPID with the tool away from the part, or post for a machine with a rotary axis that can feed.";
         /// A move longer than a block may be.
-        Departure = 566, Error, "a move is longer than a block may be",
-            "The machine says how far one block may go (limits.max_departure): motions at feed in a straight line are divided, others are not.",
-            "Bring the tool nearer by a motion before it, or correct limits.max_departure.";
+        Departure = 566, Error, "move is longer than a block may be",
+            "limits.max_departure is the longest move of one block: straight feed moves are split, others are not.",
+            "Bring the tool nearer with a move before it, or correct limits.max_departure.";
         /// A full turn or none.
-        ArcNearlyFull = 567, Error, "an arc that is a full turn or none",
-            "The arc ends less than 0.001 mm beside its start, but not there: as it stands it is a full turn but for a rounding, or no motion to the last digit.",
-            "Let the CAM system end a full circle exactly where it begins, or say its turns by TIMES; leave an arc out that is shorter than that.";
+        ArcNearlyFull = 567, Error, "ambiguous arc: full circle or zero length",
+            "The arc ends less than 0.001 mm from its start, but not on it: it is a full circle with a rounding error, or hardly a move at all.",
+            "End a full circle exactly at its start, or give its turns with TIMES. Leave out an arc that is shorter than that.";
         /// Too many functions in a block.
-        Crowded = 542, Error, "functions that the control does not take in one block",
-            "The control takes one preparatory function in a block, and each of these needs the words that stand there.",
-            "Set mode.several_g of the machine, or tool.length_z, which calls the tool length in a block of its own.";
+        Crowded = 542, Error, "too many G or M codes in one block",
+            "The control takes one preparatory function per block, and each of these needs the words of this block.",
+            "Set mode.several_g of the machine, or tool.length_z, which activates the tool length offset in a block of its own.";
         /// A pattern of `[effects]` matches.
-        EffectPattern = 546, Warning, "a pattern of [effects] says what a block does",
-            "A pattern may match a block that its author did not think of; what the rule says is then taken for granted.",
-            "Write the block itself under [effects], which goes before a pattern; [levels] W0546 = \"allow\" silences the warning.";
+        EffectPattern = 546, Warning, "a pattern in [effects] matches this block",
+            "A pattern may match a block that its author did not think of; filpost then trusts the rule.",
+            "List the block itself under [effects], which takes precedence over patterns; [levels] W0546 = \"allow\" silences the warning.";
         /// O0000 or O9001.
-        ReservedNumber = 548, Warning, "a program number that controls keep for others",
-            "O0000 is no number of a program, and O8000 to O9999 are macros of the machine's builder or protected programs: the control may refuse the program, or lose a macro by it.",
+        ReservedNumber = 548, Warning, "reserved program number",
+            "O0000 is not a program number, and O8000 to O9999 hold the machine builder's macros or protected programs: the control may refuse the program, or overwrite a macro with it.",
             "Change the PARTNO text, or set program.number.";
         /// An author's block within compensation or tool center point control.
-        AuthorChange = 547, Doubt, "an author's block changes what an active mode counts on",
-            "Cutter compensation and tool center point control go on behind the block with the tool, plane, axes or frame of before. Controls differ in what that does.",
-            "Put the block before the mode begins or behind its end.";
+        AuthorChange = 547, Doubt, "foreign block changes the state of an active mode",
+            "Cutter compensation and TCPC continue after the block with the tool, plane, axes or coordinate system of before. Controls differ in what that does.",
+            "Put the block before the mode starts or after it ends.";
         /// Unknown major word.
         UnknownWord = 513, Error, "unknown word",
             "The post has no handler for this major word, and no table lists it as without effect. A misspelt GOTO would lose a motion.",
@@ -285,84 +284,84 @@ fil_diag::codes! {
             "The post acts on the record but not on this part of it.",
             "Remove the part, or take the record with a FIL section.";
         /// Feed or speed clamped.
-        Clamped = 553, Warning, "value brought within the machine's limits",
-            "The feed or speed asked for lies outside the range of the machine.",
+        Clamped = 553, Warning, "value limited to the machine's range",
+            "The feed or speed is outside the machine's range.",
             "Check the value in the CL file and the limits in machine.toml.";
         /// Arc output as lines.
         ArcLines = 554, Warning, "arc written as short lines",
-            "The arc lies in no plane of the machine, or its radius is above the maximum.",
-            "Nothing to do if the chord tolerance suits; see circle.chord_tolerance.";
+            "The arc is in no plane of the machine, or its radius is above the maximum.",
+            "Set circle.chord_tolerance if the lines should be finer; otherwise nothing needs to change.";
         /// A line in steps.
         LineSplit = 557, Warning, "slanted line written in two blocks",
             "The machine moves XY and Z one after the other, so the tool leaves the straight line.",
-            "Nothing to do where the control can't move three axes at once; else set linear.method to 0.";
+            "Set linear.method = 0 if the control moves three axes at once; otherwise nothing needs to change.";
         /// Text outside ASCII.
-        TapeText = 555, Warning, "text on the tape that is not ASCII",
+        TapeText = 555, Warning, "non-ASCII text in the program",
             "Many controls read ASCII only and stop at other characters.",
-            "Set tape.encoding to the code page of the control, or write the message in ASCII, if it is not known to read UTF-8.";
+            "Set tape.encoding to the control's code page, or write the message in ASCII.";
         /// Editing without a macro.
-        NoEditMacro = 571, Warning, "no macro edits the blocks",
-            "The settings have the post call a macro with each block or line, and no FIL file has it.",
+        NoEditMacro = 571, Warning, "editing macro is missing",
+            "The settings call a macro for each block or line, but no FIL file defines it.",
             "Load the FIL file with the macro, or set tape.edit_macro and tape.block_macro to 0.";
         /// Arcs whose sense nothing proves.
-        ArcUnproved = 556, Warning, "the sense of an arc is not proved",
-            "CAM systems disagree about the axis of a CIRCLE, and by the other rule this arc would be the shorter way round or run on.",
-            "Look at the arc in a backplot; choose the dialect of the CL file with --dialect.";
+        ArcUnproved = 556, Warning, "arc direction is not certain",
+            "CAM systems disagree about the axis of a CIRCLE. By the other rule this arc would be the shorter one, or would continue the path smoothly.",
+            "Check the arc in a backplot; choose the dialect of the CL file with --dialect.";
         /// The digits are too coarse.
-        CoarseDigits = 590, Warning, "the tape is too coarse for the tolerance",
-            "Each axis word is rounded to its last digit, and far from a rotary axis that moves the tip.",
-            "Give a larger LINTOL or rotary.tolerance, or the axes more digits after the point.";
+        CoarseDigits = 590, Warning, "output resolution is coarser than the tolerance",
+            "Each axis word is rounded to its last digit; far from a rotary axis this moves the tip.",
+            "Increase LINTOL or rotary.tolerance, or give the axes more digits after the decimal point.";
         /// RAPTO beside CLEAR.
-        RaptoFromClear = 569, Warning, "the R level is CLEAR less RAPTO",
-            "RAPTO is measured from CLEAR toward the hole, as the help of Creo says: the tool travels between holes at CLEAR, and the feed begins at CLEAR less RAPTO above the hole. Earlier versions of filpost took RAPTO as the R level itself.",
-            "Nothing to do where that is meant; else set cycle.rapto = 1, by which RAPTO is the R level above the hole.";
+        RaptoFromClear = 569, Warning, "R plane is CLEAR minus RAPTO",
+            "As Creo's help describes it, RAPTO is measured from CLEAR toward the hole: the tool moves between holes at CLEAR, and the feed starts at CLEAR minus RAPTO above the hole. Earlier versions of filpost used RAPTO as the R plane itself.",
+            "Set cycle.rapto = 1 if RAPTO is the R plane above the hole.";
         /// Two tools of one offset.
-        SharedOffset = 570, Warning, "two tools with one length offset",
-            "The control has one table of length offsets for all tools, and OSETNO names the same offset for two tools: one of them is not as long as its offset says.",
-            "Give each tool an offset of its own; ignore this where both are the same holder, or are measured to one length.";
+        SharedOffset = 570, Warning, "two tools share one length offset",
+            "The control has one table of length offsets for all tools, and OSETNO gives two tools the same one: it is wrong for one of them.",
+            "Give each tool its own offset. Ignore this if both are in the same holder or have the same length.";
         /// Nothing keeps the tip on its line.
-        Undivided = 591, Warning, "the tip leaves its line while the machine turns",
-            "LINTOL / OFF or rotary.tolerance = 0 lets motions that turn the machine be one block each, as one at feed right behind a tool change is; all axes go evenly, and the tip goes along a curve.",
-            "Give LINTOL or rotary.tolerance a value, or check the program with filpost verify --between.";
+        Undivided = 591, Warning, "tool tip leaves its line during a rotary move",
+            "With LINTOL / OFF or rotary.tolerance = 0 each rotary move is one block, and so is a feed move right after a tool change. All axes move evenly, and the tip follows a curve.",
+            "Set LINTOL or rotary.tolerance, or check the program with `filpost verify --between`.";
         /// A rapid along a leaning tool may not be straight.
-        RapidMayBend = 578, Warning, "rapid while a head leans the tool",
-            "Along a tool that a head leans a rapid block moves two or three axes, and some controls drive each of them at its own speed there, so that the tool leaves its line.",
-            "Look what the control does (on a Fanuc bit LRP of parameter 1401), and say it with rapid.straight: 1 is straight.";
+        RapidMayBend = 578, Warning, "rapid along a tilted tool may be a dog-leg",
+            "With a tilted head, a rapid along the tool moves two or three axes. Some controls move each of them at its own speed, so the tool leaves its line.",
+            "Check the control (Fanuc: bit LRP of parameter 1401), and set rapid.straight: 1 straight, 2 dog-leg.";
         /// The length of a tool that lies across Z.
-        LengthAcross = 593, Warning, "the length of a tool that lies across Z",
-            "The control counts the length offset along Z, and the tool of this machine lies along another axis.",
-            "Look whether the control counts the length along the axis of the tool, or the offset is 0.";
+        LengthAcross = 593, Warning, "length offset of a tool lying across Z",
+            "The control applies the tool length offset along Z, but the tool of this machine is along another axis.",
+            "Check that the control applies the length along the tool axis, or that the offset is 0.";
         /// Straight up in the frame of the machine.
-        StraightUp = 594, Warning, "straight up while the tool leans",
-            "GOHOME, RETRCT or the change position is one in the frame of the machine (home.frame), Z goes there straight, and a head leans the tool.",
-            "Bring the tool out along itself by RAPID and GOTO before it; ignore this where the CL file has.";
+        StraightUp = 594, Warning, "Z retract with a tilted tool",
+            "GOHOME, RETRCT or the tool change position is in machine coordinates (home.frame): Z moves straight up while a head tilts the tool.",
+            "Retract along the tool with RAPID and GOTO before it. Ignore this if the CL file does.";
         /// The spindle stands in a hole, or a live tool where it cuts.
-        SpindleStands = 596, Warning, "cutting with the spindle standing",
-            "SPINDL/OFF, a tool change (M6), or a text that stops the spindle came before these holes or this motion at feed, and nothing has turned it since; or STOP or OPSTOP, which stop it on some machines; or MODE/MILL, and nothing has turned the live tool.",
-            "Put SPINDL / RPM with a direction before it; ignore this where the tool does not cut.";
+        SpindleStands = 596, Warning, "cutting with the spindle stopped",
+            "SPINDL/OFF, a tool change (M6) or a foreign block stopped the spindle before these holes or this feed move, and nothing has started it since; STOP and OPSTOP stop it on some machines; after MODE/MILL nothing has started the live tool.",
+            "Put SPINDL / RPM with a direction before it. Ignore this if the tool does not cut.";
         /// The way out of a bored hole.
-        BoreOut = 597, Warning, "bored hole left at feed",
-            "The machine has no code for CYCLE/BORE, and controls differ in how the tool leaves such a hole: at feed, or at rapid with the spindle standing.",
-            "Say it with cycle.bore_out: 1 at feed, 2 at rapid with the spindle standing.";
+        BoreOut = 597, Warning, "retract from a bored hole at feed",
+            "The machine has no code for CYCLE/BORE, and controls differ in how the tool leaves the hole: at feed, or at rapid with the spindle stopped.",
+            "Set cycle.bore_out: 1 at feed, 2 at rapid with the spindle stopped.";
         /// A tap at the feed of milling.
         TapOfFedrat = 598, Warning, "tap at the feed of FEDRAT",
-            "A tap moves by its lead for each turn of the spindle. CYCLE/TAP names no feed, so that of the FEDRAT before it is taken, which may be that of milling.",
+            "A tap advances by its lead in each revolution. CYCLE/TAP has no feed, so the FEDRAT before it applies, which may be a milling feed.",
             "Give CYCLE / TAP its own feed (MMPM, MMPR, TPI ...).";
         /// A table turned by an author.
-        AuthorTurns = 568, Warning, "a block of an author turns a table",
-            "POSTN or INSERT has turned a table of the machine, and the points of the CL file behind it have no tool axis. The table stays where the block has turned it, and the points are written as they are; a point with a tool axis of its own turns it by that axis.",
-            "Nothing to do where the points count so; else turn the table back by a block, or by ROTABL with rotary.table_words.";
+        AuthorTurns = 568, Warning, "foreign block turns a table",
+            "POSTN or INSERT turned a table of the machine, and the points after it have no tool axis. The table stays there, and the points are output as they are; a point with its own tool axis turns the table again.",
+            "Turn the table back with a block, or with ROTABL and rotary.table_words, unless the points are for this position.";
         /// A tap without HIGH.
         NotRigid = 558, Warning, "tap without HIGH on a machine with rigid tapping",
-            "The code of cycle.rigid_tap_mode (M29) brings the spindle in step with Z. It comes with CYCLE/TAP,HIGH; this tap is one of a floating holder.",
-            "Write CYCLE/TAP,HIGH where the tap is in a rigid holder, in the CL file or in a FIL section of CYCLE.";
+            "The code of cycle.rigid_tap_mode (M29) synchronizes the spindle with Z. Only CYCLE/TAP,HIGH outputs it; this tap is output for a floating holder.",
+            "Write CYCLE/TAP,HIGH for a tap in a rigid holder, in the CL file or in a FIL section for CYCLE.";
         /// Compensation without an offset.
         NoDiameterOffset = 559, Warning, "cutter compensation without a diameter offset",
-            "CUTCOM names no offset, and tool.diameter_from_tool = 0 takes none from the tool: G41 or G42 is written without D. Some controls then take the tool in the spindle, others the last D or none.",
-            "Write CUTCOM/LEFT,n, or set tool.diameter_from_tool to 1; ignore this where the control takes the tool in the spindle.";
+            "CUTCOM names no offset, and tool.diameter_from_tool = 0 takes none from the tool: G41 or G42 is output without D. Some controls then use the tool in the spindle, others the last D or none.",
+            "Write CUTCOM/LEFT,n, or set tool.diameter_from_tool = 1. Ignore this if the control uses the tool in the spindle.";
         /// Holes without a clearance.
-        NoClearance = 599, Warning, "rapid to the start of the holes",
-            "CYCLE names neither CLEAR nor RAPTO, and the machine has no clearance of its own (cycle.auto_clearance): the tool goes at rapid down to the start of each hole, and from hole to hole on that level.",
-            "Give CLEAR; ignore this where the holes start above the part.";
+        NoClearance = 599, Warning, "rapid down to the start of the holes",
+            "CYCLE has neither CLEAR nor RAPTO, and the machine has no clearance of its own (cycle.auto_clearance): the tool goes at rapid to the start of each hole, and from hole to hole at that height.",
+            "Give CLEAR. Ignore this if the holes start above the part.";
     }
 }

@@ -141,10 +141,9 @@ fn how_to_allow(code: &Code, block: Option<&str>) -> String {
     let level = format!("--allow {name}, or [levels] {name} = \"allow\" in machine.toml");
     match block.zip(effects_that_help(code)) {
         Some((block, effects)) => format!(
-            "if it is right as it is: {level}; or what the block does: [effects] {block:?} = \
-             {effects}"
+            "if this is intended: {level}; or describe the block: [effects] {block:?} = {effects}"
         ),
-        None => format!("if it is right as it is: {level}"),
+        None => format!("if this is intended: {level}"),
     }
 }
 

@@ -5,12 +5,12 @@ fil_diag::codes! {
     pub enum StockCode {
         /// A tool cuts whose size is not known.
         UnknownTool = 961, Error, "tool without a size",
-            "What a tool removes depends on its diameter, its corner radius and its point, which an NC program does not have.",
+            "What a tool removes depends on its diameter, corner radius and point, which are not in an NC program.",
             "Give its size, such as `--tool 1=D10R0.5L50`, or the CL file with `--cl`.";
         /// A motion that can't be simulated.
-        NotSimulated = 962, Error, "motion that can't be simulated",
-            "The simulation knows three axes in one coordinate system, with the tool upright. It would be wrong for this program.",
-            "Simulate the part of the program with the tool upright and one work offset by itself.";
+        NotSimulated = 962, Error, "move can't be simulated",
+            "The simulation handles three axes in one coordinate system, with the tool upright. It would be wrong for this program.",
+            "Simulate only the part of the program with the tool upright and one work offset.";
         /// A grid with too many cells.
         TooFine = 963, Error, "grid is too fine for the stock",
             "Each cell of the grid takes memory. The number of cells is limited to 40 million.",
@@ -25,31 +25,31 @@ fil_diag::codes! {
             "Write `box 100x80x30 at 0,0,-30`, `cylinder 60x100`, or a tool as `D10R0.5L50H40x60`.";
         /// The tool goes through material at rapid.
         RapidInStock = 971, Doubt, "rapid through stock",
-            "The tool touches material at rapid traverse: it breaks, or moves the part.",
-            "Retract higher before the move, or cut the way free; a larger stock than the real one finds too much.";
+            "The tool touches material at rapid: it breaks, or moves the part.",
+            "Retract higher before the move, or clear the path first. A stock larger than the real one also causes this.";
         /// The holder touches material.
         HolderInStock = 972, Doubt, "holder in stock",
-            "The tool goes deeper than it sticks out of its holder, beside material that is still there.",
-            "Clamp the tool longer (L), take a smaller holder (H), or rough the wall first.";
+            "The tool goes deeper than it sticks out of its holder, next to material that is still there.",
+            "Clamp the tool longer (L), use a smaller holder (H), or rough the wall first.";
         /// Cutting while the spindle stands.
         SpindleStands = 973, Doubt, "cutting while the spindle is stopped",
-            "The tool moves into material at feed, and no spindle word is in force.",
+            "The tool moves into material at feed while no spindle is on.",
             "Write SPINDL before the cut, and again after a record or block that stops the spindle.";
         /// Deeper than the part.
-        BelowPart = 974, Doubt, "cut below the part",
+        BelowPart = 974, Doubt, "cut into the finished part",
             "The tool removes material that belongs to the given part.",
-            "Check the depth, the corner radius and the length offset of the tool; `--part-tol` allows for coarse STL files.";
+            "Check the depth, the corner radius and the tool length offset; `--part-tol` allows for coarse STL files.";
         /// Plunging with a tool that has no teeth at its center.
-        CenterPlunge = 975, Warning, "plunge with a tool that does not cut at its center",
-            "The tool goes straight down into material, and the given tool has no teeth at its center (C).",
+        CenterPlunge = 975, Warning, "plunge with a non-center-cutting tool",
+            "The tool goes straight down into material, and has no teeth at its center (C).",
             "Enter by a ramp or a helix, or drill the point first.";
         /// Cutter compensation is on.
         Compensated = 976, Warning, "cutter compensation simulated with offset 0",
-            "The value of the offset is in the control. The simulation takes the programmed path as that of the tool center.",
-            "Nothing to do where the CAM system gives the path of the tool center; otherwise the tool cuts beside the simulated path by its radius.";
+            "The offset value is in the control. The simulation takes the programmed path as the path of the tool center.",
+            "Nothing to change if the CAM system outputs the tool center path; otherwise the real cut is one tool radius beside the simulated one.";
         /// Motions at feed from an unknown position.
         UnknownStart = 977, Warning, "cut from an unknown position",
-            "The position before the motion is not known, so nothing of it is simulated.",
-            "Give all axes a position at rapid before the first cut, after a machine position and after a change of the work offset.";
+            "The position before the move is unknown, so the move is not simulated.",
+            "Position all axes at rapid before the first cut, and again after a move in machine coordinates and a new work offset.";
     }
 }

@@ -6,19 +6,19 @@ fil_diag::codes! {
         /// A statement that does not follow the grammar.
         Unexpected = 101, Error, "statement not understood",
             "The statement does not have any of the forms FIL knows.",
-            "See the forms of the statement in docs/language.md.";
+            "`filpost explain WORD` shows the forms of a statement.";
         /// A character without use.
         BadCharacter = 102, Error, "character without meaning",
             "Outside comments and texts a FIL file has only Latin letters, digits and a few signs.",
             "Look for a letter of another alphabet that looks like a Latin one, or put the text between apostrophes.";
         /// A text that does not end.
-        UnclosedText = 103, Error, "text is not closed",
-            "A text ends with an apostrophe on the line it starts on.",
+        UnclosedText = 103, Error, "closing apostrophe is missing",
+            "A text ends with an apostrophe on the line where it begins.",
             "Add the closing apostrophe; an apostrophe inside a text is written twice.";
         /// `.XX.` that is no operator.
         UnknownOperator = 104, Error, "unknown operator",
             "Operators between points are .EQ. .NE. .LT. .LE. .GT. .GE. .AND. .OR. and .NOT.",
-            "Use one of these.";
+            "Write .EQ. for ==, .LE. for <=, .AND. for &&.";
         /// A number out of range.
         NumberTooLarge = 105, Error, "number too large",
             "A number must be less than about 1.8E308.",
@@ -46,14 +46,14 @@ fil_diag::codes! {
         /// Arguments of a statement that are not what it takes.
         WrongArguments = 111, Error, "wrong arguments",
             "The statement takes other arguments than these.",
-            "See the forms of the statement in docs/language.md.";
+            "`filpost explain WORD` shows the arguments of a statement.";
         /// A block without its end.
         UnclosedBlock = 112, Error, "block is not closed",
             "IF ends with ENDIF, CASE with ENDCAS, DO with the statement that bears its label.",
             "Add the missing ENDIF, ENDCAS or label.";
         /// The end or a part of a block that is not open.
-        StrayWord = 113, Error, "nothing is open here",
-            "The word belongs to a block, section or macro, and none is open here.",
+        StrayWord = 113, Error, "no open block for this word",
+            "The word belongs to a block, section or macro, but none is open here.",
             "Add the missing opening line or remove this one.";
         /// A section or macro without its end.
         UnclosedArea = 114, Error, "section or macro is not closed",
@@ -68,15 +68,15 @@ fil_diag::codes! {
             "A statement between CASE and the first WHEN would never run.",
             "Move the statement before CASE or into a WHEN branch.";
         /// A part after the one that takes all that is left.
-        AfterLast = 117, Error, "part after the last one",
+        AfterLast = 117, Error, "branch after ELSE or WHEN/OTHER",
             "ELSE and WHEN/OTHER take all other cases; no branch can follow them.",
             "Move this branch before ELSE or WHEN/OTHER.";
         /// A DO whose label is in a wrong place.
-        WrongDoEnd = 118, Error, "DO ends in a wrong place",
+        WrongDoEnd = 118, Error, "DO loop ends in the wrong place",
             "A DO ends at a simple statement with its label, in the same block, and two open DO can't share a label.",
             "End each DO with a labelled CONTIN of its own.";
         /// A label on a word that cannot have one.
-        WrongLabel = 119, Error, "label not possible here",
+        WrongLabel = 119, Error, "label is not allowed here",
             "A jump to this line would enter the middle of a block, or leave its section or macro.",
             "Put the label on the next statement.";
         /// A code page nobody knows.
@@ -86,7 +86,7 @@ fil_diag::codes! {
         /// Bytes that are not text in the encoding asked for.
         WrongEncoding = 121, Error, "text is not in this encoding",
             "Some bytes are invalid in this encoding.",
-            "Name another encoding, or leave it out to have it guessed.";
+            "Name another encoding, or leave it out and filpost finds it.";
         /// `;` within free text, and a statement behind it.
         StatementInText = 122, Doubt, "statement inside a text",
             "The text after this word ends at the end of the line, so what looks like a statement after the semicolon is text and would not run.",

@@ -34,8 +34,8 @@ const SIGNS: [(&str, &str); 22] = [
     ("&", "both conditions are joined by .AND.; texts are joined by TEXT/a,b"),
     ("|", "one of two conditions is .OR."),
     ("^", "a power is **, as in 2**3"),
-    ("\"", "a text stands between apostrophes: 'TEXT'"),
-    ("[", "a subscript stands in round brackets: TAB(1)"),
+    ("\"", "a text needs apostrophes: 'TEXT'"),
+    ("[", "a subscript needs round brackets: TAB(1)"),
     ("{", "a block is IF(condition)THEN … ENDIF"),
 ];
 
@@ -143,7 +143,7 @@ fn pointed(line: &str, at: usize) -> Option<String> {
     let last = before.rsplit(|c: char| !c.is_ascii_alphanumeric()).next().unwrap_or_default();
     let words = [word_at(line, at), last.to_ascii_uppercase()];
     let word = words.into_iter().find(|word| POINTED.contains(&word.as_str()))?;
-    Some(format!("operators stand between points: .{word}."))
+    Some(format!("operators are written between points: .{word}."))
 }
 
 /// `CALL NAME(…)`
@@ -161,11 +161,11 @@ fn condition(line: &str, at: usize, first: &str, token: Token<'_>) -> Option<Str
     }
     let rest = line.trim_start()[first.len()..].trim_start();
     if !rest.starts_with('(') {
-        return Some(format!("the condition stands in brackets: {first}(NN.EQ.1)THEN"));
+        return Some(format!("the condition needs brackets: {first}(NN.EQ.1)THEN"));
     }
     let ends = token == Token::End && line[..at].trim_end().ends_with(')');
     ends.then(|| {
-        format!("THEN stands on the same line: {first}(condition)THEN; or one statement behind it")
+        format!("put THEN on the same line: {first}(condition)THEN; or one statement after it")
     })
 }
 

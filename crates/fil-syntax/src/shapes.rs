@@ -22,7 +22,7 @@ pub(crate) fn when(reader: &mut Reader<'_>, values: Vec<Expr>, span: Span) -> Fl
         (1, 1) => FlatKind::WhenOther,
         (0, _) => refuse(reader, "WHEN/ takes values or the word OTHER", span),
         (_, 0) => FlatKind::When(values),
-        _ => refuse(reader, "OTHER stands alone in WHEN/OTHER", span),
+        _ => refuse(reader, "OTHER must be alone in WHEN/OTHER", span),
     }
 }
 

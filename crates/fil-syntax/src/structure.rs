@@ -123,7 +123,7 @@ impl Nester<'_, '_> {
             return;
         };
         if frame.before_first_when() {
-            let message = "this statement stands between CASE and its first WHEN".to_string();
+            let message = "this statement is between CASE and its first WHEN".to_string();
             let opened = ("of this CASE".to_string(), frame.span);
             self.unbalanced(SyntaxCode::BeforeWhen, message, stmt.span, Some(opened));
         } else {
@@ -142,7 +142,7 @@ impl Nester<'_, '_> {
             frame.reported = true;
             self.unbalanced(
                 SyntaxCode::WrongDoEnd,
-                format!("the label {} of DO stands inside another block", label.text),
+                format!("the label {} of DO is inside another block", label.text),
                 label.span,
                 Some((format!("inside this {word}"), span)),
             );
@@ -193,7 +193,7 @@ impl Nester<'_, '_> {
         let Some(frame) = self.frames.last_mut() else { return };
         let opened = frame.span;
         if !frame.next_part(kind, span) {
-            let message = format!("{word} stands after the part that takes all that is left");
+            let message = format!("{word} follows the branch for all other cases");
             let opened = ("of this block".to_string(), opened);
             self.unbalanced(SyntaxCode::AfterLast, message, span, Some(opened));
         }
@@ -346,7 +346,7 @@ impl Nester<'_, '_> {
 
     fn no_label(&mut self, label: Option<Name>) {
         if let Some(label) = label {
-            let message = format!("the label {} cannot stand before this word", label.text);
+            let message = format!("the label {} is not allowed before this word", label.text);
             self.reader.report(SyntaxCode::WrongLabel, message, label.span);
         }
     }

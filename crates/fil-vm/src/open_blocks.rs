@@ -40,7 +40,7 @@ pub(crate) fn refuse(search: Search<'_>, allowed: &Allowed<'_>, diags: &mut [Dia
                         && diag.spans.first() == error.spans.first()
                 };
                 if let Some(warning) = diags.iter_mut().find(is_it) {
-                    error.message = format!("{}, and {sent} stands in it", warning.message);
+                    error.message = format!("{}, and {sent} is in it", warning.message);
                     error.spans.clone_from(&warning.spans);
                     *warning = error;
                 }

@@ -43,7 +43,7 @@ pub(crate) const ELSEWHERE: &[(&str, &str)] = &[
     ("READ", "FILEF opens a file, name=TEXT/READ,unit reads a line of it"),
     ("RETURN", "write JUMPTO/label to a label before CIMFIL/OFF or TERMAC"),
     ("SYN", "filpost does not carry out SYN; write the word itself"),
-    ("THEN", "THEN stands behind the condition, on the same line: IF(condition)THEN"),
+    ("THEN", "put THEN after the condition, on the same line: IF(condition)THEN"),
 ];
 
 /// All statements but post words, which have a table of their own in the post.
@@ -70,7 +70,7 @@ pub const STATEMENTS: &[Statement] = &[
     Statement {
         word: "JUMPTO",
         form: "JUMPTO/label\nlabel) statement",
-        doc: "Goes on at the statement with that label, in the same section, macro or global area.",
+        doc: "Jumps to the statement with that label, in the same section, macro or global area.",
         grade: Grade::Inferred,
         example: "NN=0\nLA) NN=NN+1\nIF(NN.LT.5)JUMPTO/LA\nFINI\n",
     },

@@ -476,7 +476,7 @@ pub struct WatchArgs {
 /// `filpost explain`
 #[derive(Debug, ClapArgs)]
 pub struct ExplainArgs {
-    /// E0123 | rapid.split | CYCLE | SQRTF | POSTF 13 | DBLCOM 486 | G83 | fanuc-mill
+    /// E0501 | rapid.split | CYCLE | SQRTF | POSTF 13 | DBLCOM 486 | G83 | fanuc-mill | preload
     #[arg(required = true, value_parser = names::subject(), hide_possible_values = true)]
     pub subject: Vec<String>,
 }

@@ -55,7 +55,7 @@ pub fn run(args: &PostArgs) -> Result<Status, Error> {
 fn misused(args: &PostArgs) -> Option<&'static str> {
     let stream = |path: &PathBuf| path.as_os_str() == "-";
     if args.cl.iter().any(stream) {
-        Some("- stands for one CL file, it can't be one of several")
+        Some("- is one CL file, it can't be one of several")
     } else if args.output.as_ref().is_some_and(stream) {
         Some("several programs need a folder, -o DIR")
     } else if args.listing.is_some() {
@@ -185,7 +185,8 @@ fn refuse_collisions(jobs: &[Job]) -> Result<(), Error> {
             let other = written.insert(name, &job.cl).or(read.get(&real(path)).copied());
             if let Some(other) = other {
                 let (cl, other) = (job.cl.display(), other.display());
-                let message = format!("{} would come from {cl} and from {other}", path.display());
+                let message =
+                    format!("{} would be made from both {cl} and {other}", path.display());
                 return Err(output::over_input(message));
             }
         }
@@ -357,13 +358,43 @@ impl Row {
     }
 }
 
+/// Files with the same refusal whose rows are all shown; of more, [`MOST_ALIKE`] rows and a count.
+const MOST_ROWS_ALIKE: usize = 20;
+
+/// The rows to show, and for each kind of refusal that many files have, how many are left out.
+fn shown(rows: &[Row]) -> (Vec<&Row>, Vec<(&str, usize)>) {
+    let is_refusal = |row: &Row| row.status == Status::Failed && row.warnings == 0;
+    let alike =
+        |result: &str| rows.iter().filter(|row| is_refusal(row) && row.result == result).count();
+    let mut kinds: Vec<(&str, usize, usize)> = Vec::new();
+    let mut shown = Vec::new();
+    for row in rows {
+        if !is_refusal(row) {
+            shown.push(row);
+            continue;
+        }
+        let at = kinds.iter().position(|(result, ..)| *result == row.result).unwrap_or_else(|| {
+            kinds.push((&row.result, alike(&row.result), 0));
+            kinds.len() - 1
+        });
+        let (_, all, count) = &mut kinds[at];
+        *count += 1;
+        if *all <= MOST_ROWS_ALIKE || *count <= MOST_ALIKE {
+            shown.push(row);
+        }
+    }
+    kinds.retain(|(_, all, _)| *all > MOST_ROWS_ALIKE);
+    (shown, kinds.into_iter().map(|(result, all, _)| (result, all - MOST_ALIKE)).collect())
+}
+
 /// The table, and a line of sums.
 fn table(rows: &[Row], time: Duration) {
+    let (shown, more) = shown(rows);
     let widest = |of: fn(&Row) -> &str| rows.iter().map(|row| of(row).chars().count()).max();
     let name = widest(|row| &row.cl).unwrap_or(0);
     let result = widest(|row| &row.result).unwrap_or(0);
     let dialect = widest(|row| &row.dialect).unwrap_or(0);
-    for row in rows {
+    for row in shown {
         output::say(&format!(
             "{:name$}  {:dialect$}  {:>result$}  {:>12}  {:>8.2} s  {}",
             row.cl,
@@ -373,6 +404,9 @@ fn table(rows: &[Row], time: Duration) {
             row.time.as_secs_f64(),
             row.by,
         ));
+    }
+    for (result, count) in more {
+        output::say(&format!("{}: {result}", summary::counted(count as u64, "more file")));
     }
     let failed = rows.iter().filter(|row| row.status != Status::Done).count();
     output::say(&format!(

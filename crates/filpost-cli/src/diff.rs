@@ -138,7 +138,7 @@ impl Show<'_> {
         let count = found.differences.len();
         let s = if count == 1 { "" } else { "s" };
         if count == 0 {
-            writeln!(out, "the programs say the same")
+            writeln!(out, "the programs are equivalent")
         } else {
             writeln!(out, "{count} difference{s}")
         }

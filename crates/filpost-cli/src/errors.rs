@@ -16,11 +16,11 @@ fil_diag::codes! {
             "A test run without cases would prove nothing.",
             "Name a folder that contains folders with a case.toml.";
         /// `filpost test --init` over a case.
-        CaseExists = 804, Error, "the folder holds a case already",
+        CaseExists = 804, Error, "folder already holds a case",
             "An existing case is never replaced.",
             "Choose another folder, or remove the old case.";
         /// Two files of one name in a case to be.
-        SameName = 805, Error, "two files of the case have one name",
+        SameName = 805, Error, "two files of the case have the same name",
             "All files of a case are in one folder.",
             "Rename one of them.";
         /// `filpost trace` without a line.
@@ -29,10 +29,10 @@ fil_diag::codes! {
             "Write a colon and the line number after the file name.";
         /// A folder without CL files.
         NoClFiles = 807, Error, "no CL files in this folder",
-            "From a folder, files with the endings of CL files are posted, but not those of its subfolders.",
+            "From a folder, filpost posts the files with the endings of CL files, but not those in subfolders.",
             "Name the folder of the CL files, or the files themselves.";
         /// `filpost new` over something.
-        FolderExists = 808, Error, "the folder is there already",
+        FolderExists = 808, Error, "folder already exists",
             "A new post needs a new folder; existing files are never overwritten.",
             "Choose another name.";
         /// `filpost new` of `..` or `/`.
@@ -40,7 +40,7 @@ fil_diag::codes! {
             "The post gets the name of its folder, and this path does not end with a name.",
             "Write the name of the folder: filpost new my-post.";
         /// `filpost test --init` with a folder that can't be copied.
-        NotCopied = 810, Error, "the folder can't be part of a case",
+        NotCopied = 810, Error, "folder can't be copied into a case",
             "A case has a copy of the folder that its scripts read: at most 1000 files and folders and 64 MB, and no links, which could lead out of it.",
             "Grant a folder with the files that the scripts read, and nothing else.";
         /// `filpost machine show` of a name that no setting has.
@@ -49,11 +49,11 @@ fil_diag::codes! {
             "`filpost machine show --all` lists every setting; `-m FILE` names the machine.";
         /// `filpost studio` without its program.
         NoStudio = 812, Error, "the studio is not installed",
-            "The studio is a program of its own, filpost-studio, which is neither beside this command nor in a folder of PATH.",
-            "Install it: `cargo install --locked --path crates/filpost-studio`.";
+            "The studio is a separate program, filpost-studio, which is neither next to this command nor in a folder of PATH.",
+            "Put filpost-studio of the release next to filpost, or run `cargo install --locked --path crates/filpost-studio`.";
         /// `--audit` with a finding, or with `--deny audit` a change.
         Audit = 813, Error, "the audit refuses this program",
-            "A block of the program has a fault or breaks a rule; with --deny audit, a script or INSERT has changed something too.",
+            "A block of the program has a fault or breaks a rule; with --deny audit, changes by a script or INSERT are refused too.",
             "Correct what the audit names; without --audit the program is written as it is.";
     }
 }

@@ -21,7 +21,7 @@ pub fn run(subject: &[String]) -> Result<Status, Error> {
     }
     output::say(
         "Ask for a code (E0501), a setting (rapid.split), a CL or FIL word (CYCLE), a function \
-         (POSTF 13), a location (INTCOM 1861), a G or M code (G83) or a ready post (haas-mill).",
+         (POSTF 13), a location (INTCOM 1861), a G or M code (G83), a ready post (haas-mill) or an option of one (preload).",
     );
     Ok(Status::Usage)
 }

@@ -93,7 +93,7 @@ fn learn(args: &LearnArgs, pairs: Vec<Pair>) -> Result<Status, Error> {
         output::print(learned.report().as_bytes())?;
     }
     if learned.is_too_far() {
-        output::say("less than half of the blocks come out: no settings are written");
+        output::say("less than half of the blocks match: no settings are written");
         return Ok(Status::Failed);
     }
     if let Some(folder) = &args.output {

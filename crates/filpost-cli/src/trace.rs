@@ -70,7 +70,7 @@ fn head(text: &mut String, answer: &Answer) {
         let _ = writeln!(text, "{file}:{}: {}", record.line, record.statement);
         let _ = writeln!(text, "  record {}", record.number);
     } else {
-        let _ = writeln!(text, "{file}:{line} stands before the first record");
+        let _ = writeln!(text, "{file}:{line} is before the first record");
     }
     for taken in &answer.taken {
         let section = &taken.section;

@@ -237,7 +237,9 @@ fn set(
             Edit::Common(row.kind, u32::from(row.number), number(value, state)?)
         }
         CONTROL | TAPE => {
-            return Err("what the control knows comes from the blocks; it can't be set".to_string());
+            return Err(
+                "the state of the control follows from the blocks; it can't be set".to_string()
+            );
         }
         _ => {
             let arrays = state.fil.arrays();

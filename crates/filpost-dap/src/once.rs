@@ -107,7 +107,7 @@ fn placed(asked: &Value, files: &Files, program: &Program) -> Placed {
         let path = Path::new(text("file").unwrap_or_default());
         let line = asked["line"].as_u64().unwrap_or(0);
         let place = kind_of(path, files, None, program).place(line);
-        place.ok_or("nothing runs in this line or behind it")?
+        place.ok_or("nothing runs in this line or after it")?
     };
     Ok((what, When::read(asked)?))
 }

@@ -216,7 +216,7 @@ impl Session {
         for one in asked {
             let line = one.get("line").and_then(Value::as_u64).unwrap_or(0);
             let placed = When::read(one).and_then(|when| {
-                let what = kind.place(line).ok_or("nothing runs in this line or behind it")?;
+                let what = kind.place(line).ok_or("nothing runs in this line or after it")?;
                 Ok((what, when))
             });
             match placed {

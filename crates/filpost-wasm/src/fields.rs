@@ -97,7 +97,7 @@ impl Fields {
     /// The first one that has not.
     pub fn end(self) -> Result<(), Misuse> {
         match self.0.first() {
-            Some((key, _)) => Err(Misuse(format!("nobody knows the field `{key}`"))),
+            Some((key, _)) => Err(Misuse(format!("unknown field `{key}`"))),
             None => Ok(()),
         }
     }

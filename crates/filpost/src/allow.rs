@@ -47,7 +47,7 @@ pub fn allowable(name: &str) -> Result<&'static Code, Box<Diag>> {
         Some(code) if code.kind != CodeKind::Error => Ok(code),
         Some(code) => {
             let message = format!("{} ({}) can't be allowed", code.name(), code.title);
-            let hint = format!("it can't be done, whatever is meant: {}", code.reason);
+            let hint = format!("it can't be done: {}", code.reason);
             Err(Box::new(RunCode::CannotAllow.diag(message).hint(hint)))
         }
         None => RunCode::CannotAllow.err(format!("there is no code {name}")),
@@ -67,7 +67,7 @@ fn number(name: &str) -> Option<u16> {
 /// E0713 for a code that has no level, and for what is no level.
 pub fn level_named(code: &str, level: &str) -> Result<(LevelOf, Level), Box<Diag>> {
     let Ok(level) = level.parse::<Level>() else {
-        let message = format!("`{level}` is no level of {code}; one is allow, warn or deny");
+        let message = format!("`{level}` is not a level of {code}; write allow, warn or deny");
         return RunCode::CannotAllow.err(message);
     };
     Ok((LevelOf::named(code)?, level))

@@ -160,7 +160,7 @@ impl Editor for SharedEditor {
             0.0 => Ok(false),
             1.0 => Ok(true),
             _ => RunCode::WhileWriting
-                .err(format!("_REPOS gives {value} for {name}, which is 0 or 1")),
+                .err(format!("_REPOS gives {value} for {name}, which must be 0 or 1")),
         };
         *ways = Ways {
             retract: number(retract),

@@ -17,7 +17,7 @@ fil_diag::codes! {
             "The folder is read-only, the disk is full, or the output was closed.",
             "No file was left under the output name. Free some space or choose another folder.";
         /// No ready post of that name.
-        NoReadyPost = 703, Error, "no ready post of that name",
+        NoReadyPost = 703, Error, "unknown ready post",
             "No ready post has this name.",
             "`filpost posts` lists the names; -m takes a machine.toml.";
         /// A compat file.
@@ -29,7 +29,7 @@ fil_diag::codes! {
             "A case is a folder with a case.toml that names its CL file and its expected output.",
             "Correct the line shown.";
         /// A file of a script outside of its folder.
-        OutsideFolder = 706, Error, "file outside of the granted folder",
+        OutsideFolder = 706, Error, "file outside the granted folder",
             "A grant covers a folder and its subfolders; no name, `..` or link may lead out of it.",
             "Name the file relative to the folder, or grant another folder.";
         /// A line map.
@@ -41,8 +41,8 @@ fil_diag::codes! {
             "The map belongs to the files of its run; one of them has changed since.",
             "Post the CL file again with --map, or name the map that belongs to the program.";
         /// A question about a line that is not there.
-        NoSuchLine = 709, Error, "there is no such place",
-            "The file has no such line or column.",
+        NoSuchLine = 709, Error, "no such line or column",
+            "The file is shorter than the line or column asked for.",
             "Count lines from 1, columns in characters.";
         /// No line map for a question.
         NoMap = 710, Error, "no line map",
@@ -73,16 +73,16 @@ fil_diag::codes! {
             "The embedding program limits the size of a program, so that an endless loop does not fill the disk.",
             "Look for the loop that writes; an embedding program can raise `Limits::output_bytes`.";
         /// A post word in a macro that edits.
-        WhileWriting = 718, Error, "not while a block is written",
-            "The macro edits a block that is not written yet: until then nothing else can be written, read or set.",
+        WhileWriting = 718, Error, "not allowed in an editing macro",
+            "The macro edits a block before it is written. Until then nothing else can be written, read or set.",
             "Change only the parameters of the macro; do the rest in a section.";
         /// PROGF changed what PROGF tells.
         OwnTotals = 719, Error, "the program's totals depend on themselves",
-            "The script used totals from the first pass, but the program that it wrote has other totals, so its header would be wrong.",
+            "The script used totals of the first pass, but the program it wrote has other totals, so its header would be wrong.",
             "Use PROGF, TLISTF, OPERF and TOOLF(NEXT) only in texts, not in motions, tools, feeds or dwells.";
         /// A name that Windows does not allow.
-        FileName = 720, Error, "no name for a file",
-            "Windows takes NUL, CON, AUX, PRN, COM1 and LPT1 for devices whatever ending they have, leaves points and blanks at the end of a name out, and keeps some characters for itself: what is written there is lost or is another file. The files of scripts have such names on no system, as a post must do the same on each.",
+        FileName = 720, Error, "invalid file name",
+            "Windows reserves NUL, CON, AUX, PRN, COM1 and LPT1 with any ending, drops points and blanks at the end of a name, and forbids some characters. Scripts can't use such names on any system, so that a post works the same on each.",
             "Choose another name: letters, digits, `-`, `_`, and one ending.";
         /// Statements after the end.
         AfterFini = 751, Warning, "records after FINI",
@@ -97,12 +97,12 @@ fil_diag::codes! {
             "There is nothing to post.",
             "Check that this is the CL file you meant.";
         /// A dialect was chosen that contradicts the text.
-        OtherSigns = 757, Warning, "CL text of another dialect than the one chosen",
-            "Only one CAM system writes this line, and the dialect of another was chosen; tool axes, cycles and texts may mean something else.",
+        OtherSigns = 757, Warning, "CL text contradicts the chosen dialect",
+            "Only one CAM system writes this line, and the dialect of another was chosen; tool axes, cycles and texts may be read wrong.",
             "Choose the dialect of that system, or none.";
         /// A setting acts that no proven program decides.
         Undecided = 758, Warning, "no proven program decides this setting",
-            "`filpost learn` found this setting with another value to be as good: no proven program shows it. Here it changes the program.",
+            "`filpost learn` found another value just as good: no proven program decides it. Here the setting changes the program.",
             "Compare the block with a program of the old post; `filpost learn --check` takes that program as a further pair.";
     }
 }

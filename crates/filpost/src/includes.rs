@@ -85,7 +85,7 @@ impl Known {
     }
 
     fn include(&mut self, from: &str, name: &str) -> Result<Included, String> {
-        let from = self.paths.get(from).ok_or("the file it stands in is not known")?;
+        let from = self.paths.get(from).ok_or("its file is not known")?;
         // FIL files of Windows name their folders with a backslash.
         let wanted = name.replace('\\', "/");
         if Path::new(&wanted).has_root() || wanted.contains(':') {

@@ -1,5 +1,5 @@
-//! The files of an own post to begin with: settings over a ready post, a script with a header,
-//! a first case, and a page that says how to go on.
+//! The files of a new post: settings over a ready post, a script with a header, a first case, and a
+//! page with the next steps.
 
 use std::io;
 
@@ -8,6 +8,7 @@ use fil_diag::Diag;
 use crate::error::{Error, RunCode};
 use crate::program::Program;
 use crate::ready::{self, ReadyPost};
+use crate::{OptionValue, PostOption};
 
 const MACHINE: &str = include_str!("../data/new/machine.toml");
 const SCRIPT: &str = include_str!("../data/new/post.fil");
@@ -33,6 +34,8 @@ pub fn files(name: &str, base: &str, folder: &str) -> Result<Vec<NewPostFile>, E
         text.replace("{NAME}", name).replace("{BASE}", base.name).replace("{FOLDER}", folder)
     };
     let machine = fill(MACHINE).replace("\"{TITLE}\"", &toml::Value::from(name).to_string());
+    let settings = Program::builder().machine("machine.toml", &machine.replace("{OPTIONS}", ""));
+    let machine = machine.replace("{OPTIONS}\n", &options(base.name, settings.build()?.options()));
     let script = fill(SCRIPT);
     let program =
         Program::builder().machine("machine.toml", &machine).fil("post.fil", &script).build()?;
@@ -53,6 +56,25 @@ fn find(name: &str) -> Result<&'static ReadyPost, Error> {
     Program::builder().ready(name).build()?;
     ready::find(name)
         .ok_or_else(|| Error::setup(Diag::new(RunCode::NoReadyPost, format!("no post {name}"))))
+}
+
+/// The table of the options of a post: each as a comment, with its value and those that it takes.
+fn options(base: &str, options: &[PostOption]) -> String {
+    if options.is_empty() {
+        return String::new();
+    }
+    let mut text =
+        format!("\n# Options of {base}; `filpost posts {base}` lists them too.\n[options]\n");
+    for option in options {
+        let value = match &option.value {
+            OptionValue::Bool(is_on) => is_on.to_string(),
+            OptionValue::Integer(number) => number.to_string(),
+            other => toml::Value::from(other.to_string()).to_string(),
+        };
+        text += &format!("\n# {}: {}\n", option.help, option.kind.values());
+        text += &format!("# {} = {value}\n", option.name);
+    }
+    text
 }
 
 /// A part that the post takes, with its program: a lathe's is a turned one.

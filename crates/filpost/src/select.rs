@@ -128,7 +128,7 @@ pub fn confirm(
     let Some((machin, line)) = other else { return Ok(()) };
     let was = match chosen_for {
         Some(first) => format!("the post was chosen for {first}"),
-        None => "a generic post was chosen: no MACHIN stands before the motions".to_string(),
+        None => "a generic post was chosen: no MACHIN before the moves".to_string(),
     };
     let diag = RunCode::NoPost.diag(format!("{machin} comes too late; {was}"));
     Err(Error::Run(Box::new(diag.at(TextSpan::line(cl_name, *line, machin.to_string())))))

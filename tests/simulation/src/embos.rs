@@ -113,7 +113,7 @@ pub fn cuts(nc: &str, clear: f64, lean: f64) -> Result<Vec<Cut>, String> {
         }
         // The first block comes from wherever the machine stands.
         if moves && rapid && !found.is_empty() && at[0].abs().min(from[0].abs()) < clear {
-            return Err(format!("line {line}: rapid motion at X {}", at[0]));
+            return Err(format!("line {line}: rapid move at X {}", at[0]));
         }
         // X may carry the last digit of a coarse CL file.
         if !rapid && from != at && (from[0] - at[0]).abs() < 0.01 {

@@ -150,7 +150,7 @@ impl<'s> Model<'s> {
                 if *on {
                     self.height_before_skip = height;
                 } else if self.height_before_skip != height {
-                    self.may_refuse("a height that depends on the skip switch");
+                    self.may_refuse("a height that depends on the block delete");
                 }
                 self.skipping = *on;
             }
@@ -258,7 +258,7 @@ impl<'s> Model<'s> {
         };
         let machine = self.frame.apply(target);
         if self.cycle.is_some() && self.at.is_none_or(|at| target[2] < at[2]) {
-            self.may_refuse("a rapid motion in a cycle that leads down");
+            self.may_refuse("a rapid move in a cycle that leads down");
         }
         self.at = Some(target);
         self.is_left = false;
@@ -380,7 +380,9 @@ impl<'s> Model<'s> {
         let cuts = matches!(act, Act::Feed(_) | Act::Arc(_) | Act::Hole(_));
         let per_revolution = feed.accepts(|rate| rate.per_revolution);
         match cuts && per_revolution && may_stop {
-            true if self.setup.turns() => self.may_refuse("a feed a turn of a spindle that stands"),
+            true if self.setup.turns() => {
+                self.may_refuse("feed per revolution of a spindle that stands")
+            }
             true => self.out.unpredictable = true,
             false => {}
         }

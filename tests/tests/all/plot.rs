@@ -310,7 +310,7 @@ fn gaps_of_a_path_are_listed() {
     let missing = said["missing"].as_str().unwrap_or_default();
     assert!(missing.contains("line 2: not drawn: `#`"), "{said:#}");
     assert!(missing.contains("line 5: not drawn: the machine has no G65"), "{said:#}");
-    assert!(missing.contains("line 6: not drawn: no G word"), "{said:#}");
+    assert!(missing.contains("line 6: not drawn: no G code"), "{said:#}");
 }
 
 #[test]

@@ -151,8 +151,8 @@ fn a_wrong_word_of_g71_is_found() {
         (" M75", "", "one of its pattern"),
         ("F6.35", "U0.1 F6.35", "two words of one axis"),
         ("F6.35", "I0.5 F6.35", "I"),
-        ("M22\n", "M23\n", "said by a parameter"),
-        ("M22\n", "M24\n", "no block says"),
+        ("M22\n", "M23\n", "depends on a parameter"),
+        ("M22\n", "M24\n", "no block sets"),
     ] {
         assert!(nc.contains(old), "{old}");
         let wrong = said_against(&post, cl, &nc.replacen(old, new, 1));

@@ -225,7 +225,9 @@ fn faces_in_tilted_frames_do_what_the_cl_file_asks_for() {
             .iter()
             .sum::<usize>();
     }
-    println!("{count} programs, {frames} tilted frames, {arcs} arcs, {poles} refused at poles");
+    println!(
+        "{count} programs, {frames} tilted work planes, {arcs} arcs, {poles} refused at poles"
+    );
     assert!(poles * 50 <= count, "{poles} of {count} refused at poles");
     assert!(frames as u64 > count && arcs as u64 > count, "{frames} frames, {arcs} arcs");
 }

@@ -80,7 +80,7 @@ fn faults_are_said_in_a_machinists_words() {
             FindingKind::Position,
             "X off by 35.4535 (X31.251 in place of X-4.2025), Y off by 34.6006 (Y-14.499 in place of Y20.1016), Z higher by 0.2951 (Z48.75 in place of Z48.4549)",
         ),
-        ("G49\nM30", "M30", FindingKind::Tool, "tool-tip control is on, it should be off"),
+        ("G49\nM30", "M30", FindingKind::Tool, "TCPC is on, it should be off"),
         ("M8\n", "M9\n", FindingKind::Coolant, "coolant is off, it should be on by M8"),
     ] {
         let report = first(old, new);

@@ -329,7 +329,7 @@ fn findings_of_a_lathe() {
             "N60 G1 Z-30. F0.2\nN70 M1",
             "N60 M1\nN70 G1 Z-30. F0.2",
             FindingKind::Auxiliary,
-            "M1 stands elsewhere, it should be between lines 9 and 11",
+            "M1 is elsewhere, it should be between lines 9 and 11",
         ),
     ] {
         assert!(case.nc.contains(old), "{old}:\n{}", case.nc);
@@ -360,7 +360,7 @@ fn inverse_time_is_compared_with_a_feed() {
     let named = |case: &&NcCase| case.name == "verify/inverse-time-table-table";
     let case = cases.iter().find(named).expect("a program");
     let report = check(case, &case.nc.replace("F13.47", "F26.94")).expect("a report");
-    let said = "feed 26.94 blocks a minute, which is 800.1213 mm/min on this way of 29.7001, it should be 400 mm/min";
+    let said = "feed 26.94 blocks per minute, which is 800.1213 mm/min on this move of 29.7001, it should be 400 mm/min";
     let found: Vec<(FindingKind, &str)> =
         report.findings.iter().map(|found| (found.kind, found.message.as_str())).collect();
     assert_eq!(found, [(FindingKind::Feed, said)], "{}", listed(&report));

@@ -383,14 +383,14 @@ fn a_point_of_a_divided_line_out_of_step_is_found() {
     assert_eq!(found(nc), "");
     // The same line, in step: uneven parts.
     let whole = "X18. Y14.177 Z-1.215 A6. F22.36\n";
-    assert!(!found(&nc.replace(whole, "")).contains("where it should be"));
+    assert!(!found(&nc.replace(whole, "")).contains("from its position"));
     for (old, new, said) in [
-        ("X22.", "X22.001", "on the way the tip is"),
-        ("A9.", "A9.002", "on the way the tip is"),
-        ("A9.", "A8.998", "on the way the tip is"),
-        ("Z-2.336", "Z-2.337", "on the way the tip is"),
+        ("X22.", "X22.001", "during the move the tip is"),
+        ("A9.", "A9.002", "during the move the tip is"),
+        ("A9.", "A8.998", "during the move the tip is"),
+        ("Z-2.336", "Z-2.337", "during the move the tip is"),
         // On the line in every digit, and turned by too little for it.
-        ("X22. Y18.686 Z-2.336 A9.", "X22.008 Y18.69 Z-2.337 A9.", "where it should be"),
+        ("X22. Y18.686 Z-2.336 A9.", "X22.008 Y18.69 Z-2.337 A9.", "from its position"),
     ] {
         assert!(nc.contains(old), "{old}");
         let found = found(&nc.replacen(old, new, 1));

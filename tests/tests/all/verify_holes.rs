@@ -53,7 +53,7 @@ fn a_feed_a_turn_that_is_told_by_the_minute_is_found() {
     };
     assert_eq!(found("fanuc-mill", &[], &cl, &nc("G95 ", ".05")), "");
     let said = found("fanuc-mill", &[], &cl, &nc("", "150."));
-    assert!(said.contains("feed 150 mm/min, it should be 0.05 mm a turn"), "{said}");
+    assert!(said.contains("feed 150 mm/min, it should be 0.05 mm/rev"), "{said}");
 }
 
 /// G81, G83, G85 and G86 pass over P.

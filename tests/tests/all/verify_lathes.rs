@@ -322,7 +322,7 @@ fn rapids_of_a_live_tool_in_a_dangerous_order_are_found() {
         &[
             ("Z20.; X0. C0.", "X0. C0.; Z20.", "rapid goes across before Z has gone up"),
             ("Z-40. C180.; X54.", "X54.; Z-40. C180.", "rapid goes down before X and Y are over"),
-            ("G0 X84.; Z-30. C90.", "G0 Z-30. C90.; X84.", "rapid goes across below the R level"),
+            ("G0 X84.; Z-30. C90.", "G0 Z-30. C90.; X84.", "rapid in XY below the R plane"),
         ],
     );
 }

@@ -19,7 +19,7 @@ fn check(case: &NcCase, nc: &str) -> Result<Report, Box<Diag>> {
 fn what_a_control_may_be_in_is_found() {
     let cl = root().join("tests/cl/holes.ncl.1");
     let case = &nc_cases::posted_by("fanuc-mill", &cl).expect("a program");
-    let left = "is left to the control: no block says it, and the machine does not state it";
+    let left = "is left to the control: no block sets it, and the machine settings don't either";
     let start = FindingKind::StartMode;
     for (old, new, kind, said) in [
         ("G21 ", "", start, format!("the unit {left}")),
@@ -55,13 +55,13 @@ fn what_a_control_may_be_in_is_found() {
             "\nN40 M8",
             "\n/N40 M8",
             FindingKind::Coolant,
-            "coolant is off, it should be on by M8, with the blocks behind / left out".to_string(),
+            "coolant is off, it should be on by M8, with block delete on".to_string(),
         ),
         (
             "\nN80 X12.5",
             "\n/N80 X12.5",
             FindingKind::Missing,
-            "no hole at X12.5 Y0, with the blocks behind / left out".to_string(),
+            "no hole at X12.5 Y0, with block delete on".to_string(),
         ),
     ] {
         assert!(case.nc.contains(old), "{old}:\n{}", case.nc);
@@ -187,7 +187,7 @@ fn a_text_of_insert_that_is_moved_is_found() {
     let moved = lines.remove(text);
     lines.insert(text + 1, moved);
     let report = check(&lines.join("\n")).expect("a report");
-    assert!(report.findings[0].message.contains("stands elsewhere"), "{}", listed(&report));
+    assert!(report.findings[0].message.contains("is elsewhere"), "{}", listed(&report));
 }
 
 /// The machine may name the work offsets that its programs choose.
@@ -231,7 +231,7 @@ fn a_tool_that_the_program_measures_is_found() {
 #[test]
 fn what_is_not_switched_on_again_is_found() {
     let cases = nc_cases::posted(&root().join("tests/verify/again.ncl"));
-    let behind = "is not switched on again behind the tool change or stop";
+    let behind = "is not switched on again after the tool change or stop";
     let (spindle, coolant) = (FindingKind::Spindle, FindingKind::Coolant);
     for (post, old, new, kind) in [
         ("fanuc-mill", "S800 M3\nN100", "S800\nN100", spindle),

@@ -97,7 +97,7 @@ fn a_time_for_a_way_from_an_unknown_place_is_found() {
     let cl = format!("{OVER}; SET / OFSETL, 2; GOTO / 10, 0, 5, {lean}");
     let start = "G0 X10. Y0.; A0. C0.; G43 Z50. H1; G1 Z30. F300.";
     let nc = milled(&format!("{start}; G55; G93 X-0.65 Y-9.387 Z5.113 A-20. C-88. F300.118"));
-    let message = "the feed is a time for a way that begins where nobody knows";
+    let message = "inverse-time feed on a move from an unknown start point";
     Case { ready: "haas-trunnion", settings: &[], cl: &cl, nc: &nc }.asks_for(message);
     let nc = milled(&format!(
         "{start}; T2 M6; S3000 M3; G93 X-0.65 Y-9.387 Z5.113 A-20. C-88. F300.118"
@@ -116,8 +116,7 @@ fn a_turn_that_may_be_skipped_must_not_come_at_feed_in_its_place() {
     let start = "G0 X10. Y0.; A0. C0.; G43 Z50. H1; G1 Z30. F300.; /G0 C90.";
     let nc = milled(&format!("{start}; G1 X20. C90."));
     Case { ready, settings, cl: &cl, nc: &nc }.asks_for(
-        "the tip leaves its line by 5.3312 on the way, 0.01 is allowed, with the blocks behind / \
-         left out",
+        "the tip leaves its line by 5.3312 during the move, 0.01 is allowed, with block delete on",
     );
     // At rapid it may.
     let cl = cl.replace("GOTO / 20, 0, 30", "RAPID; GOTO / 20, 0, 80");
@@ -170,7 +169,7 @@ fn tip_control_ends_and_begins_again_beside_other_records() {
     case.agrees_but_not_with(("G55\n", ""), "it should be G55");
     case.agrees_but_not_with(("Z286.908", "Z186.908"), "Z186.908");
     let moved = ("G0 X112.606 Z286.908\nG49\nG55", "G49\nG55");
-    case.agrees_but_not_with(moved, "the control may come down by the length of the tool");
+    case.agrees_but_not_with(moved, "the control may move down by the tool length");
     // The CL file goes on upright, without it, by the level of the machine.
     let cl = format!("{start}; GOTO / {lean}; MULTAX / OFF; RAPID; GOTO / 0, -1, 50, {UP}");
     let nc = milled(
@@ -185,7 +184,7 @@ fn tip_control_ends_and_begins_again_beside_other_records() {
         "home.retract_z=150",
     ];
     Case { ready, settings, cl: &cl, nc: &nc }
-        .agrees_but_not_with(("Z150.", "Z140."), "Z140, which is on no way to its end");
+        .agrees_but_not_with(("Z150.", "Z140."), "Z140, which is not on a path to its end");
 }
 
 #[test]
@@ -202,7 +201,7 @@ fn another_work_offset_is_gone_to_again() {
     ));
     let settings = &["rotary.frame_output=1", "home.retract_z=150"];
     let case = Case { ready: "fanuc-mill-a", settings, cl: &cl, nc: &nc };
-    case.agrees_but_not_with(("Z150.", "Z57."), "which is no way up");
+    case.agrees_but_not_with(("Z150.", "Z57."), "and not a retract");
     case.agrees_but_not_with(("G55\n", ""), "work offset none, it should be G55");
     // Behind a point that comes twice.
     let cl = "RAPID; GOTO / 0, 0, 60; RAPID; GOTO / 0, 0, 60; SET / OFSETL, 2; RAPID; \
@@ -265,7 +264,7 @@ fn holes_of_two_faces_in_one_cycle_are_followed() {
         "rotary.primary_z=-1.123",
     ];
     let case = Case { ready: "fanuc-mill-b", settings, cl, nc: &nc };
-    case.agrees_but_not_with(("R10.541", "R11.541"), "R level is higher by 1");
+    case.agrees_but_not_with(("R10.541", "R11.541"), "R plane is higher by 1");
     case.agrees_but_not_with(("X-0.298", "X-1.298"), "the hole is deeper by 0.9998");
 }
 
@@ -291,8 +290,8 @@ fn a_hole_across_a_turned_table_returns_to_the_level_that_it_went_up_to() {
     ];
     let case = Case { ready: "fanuc-mill-b", settings, cl, nc: &nc };
     case.agrees_but_not_with(("G98 G81 X103", "G99 G81 X103"), "the hole is not finished");
-    case.agrees_but_not_with(("X115.979", "X116.979"), "the level over the hole is higher by 1");
-    case.agrees_but_not_with(("R102.64", "R101.64"), "the R level is deeper by 1");
+    case.agrees_but_not_with(("X115.979", "X116.979"), "the plane over the hole is higher by 1");
+    case.agrees_but_not_with(("R102.64", "R101.64"), "the R plane is deeper by 1");
 }
 
 #[test]
@@ -362,8 +361,8 @@ fn a_line_may_be_divided_from_where_the_tape_has_the_tool() {
         "rotary.primary_z=-23.338",
     ];
     let case = Case { ready: "fanuc-mill-b", settings, cl, nc: &nc };
-    case.agrees_but_not_with(("Y48.415", "Y48.418"), "on the way the tip is 0.0");
-    case.agrees_but_not_with(("Z-95.809", "Z-95.805"), "on the way the tip is 0.0");
+    case.agrees_but_not_with(("Y48.415", "Y48.418"), "during the move the tip is 0.0");
+    case.agrees_but_not_with(("Z-95.809", "Z-95.805"), "during the move the tip is 0.0");
 }
 
 #[test]
@@ -387,7 +386,7 @@ fn a_table_that_turns_under_a_tool_along_x_is_followed_from_hole_to_hole() {
         "rotary.primary_z=61.408",
     ];
     let case = Case { ready: "fanuc-mill-a", settings, cl, nc: &nc };
-    case.agrees_but_not_with(("G0 X3.455", "G0 X2.455"), "the level over the hole is deeper by");
+    case.agrees_but_not_with(("G0 X3.455", "G0 X2.455"), "the plane over the hole is deeper by");
     case.agrees_but_not_with(("Y35.968", "Y35.978"), "Y off by");
     // Along Z, then along Y, both over the R level.
     let cl = "FEDRAT / 465, MMPM; GOTO / 52.3397, 0, 40, 1, 0, 0; \
@@ -503,7 +502,7 @@ fn tip_control_that_begins_again_in_the_same_offset_agrees() {
          G55; G43.4 H1; X-18.913 Y3.722 Z-30.192 B-11.01; X-76.207 Z264.286; G49",
     );
     let case = Case { ready: "fanuc-5x-tables", settings: &settings, cl, nc: &nc };
-    case.agrees_but_not_with(("G0 X-72.458 Z267.899\n", "G0\n"), "tool-tip control has ended");
+    case.agrees_but_not_with(("G0 X-72.458 Z267.899\n", "G0\n"), "TCPC ended");
 }
 
 /// A clamped axis turns in no block, whoever wrote the code of the clamp.
@@ -570,7 +569,7 @@ fn a_way_up_behind_a_tool_change_need_not_go_along_a_head_that_leans() {
     let ready = "haas-trunnion-tcpc";
     let start = "G234 H1; G0 X40. Y0. Z90. B30. C0.; G49";
     let straight = milled(&format!("{start}; G0 G43 Z400. H1"));
-    Case { ready, settings, cl, nc: &straight }.asks_for("the tool leans");
+    Case { ready, settings, cl, nc: &straight }.asks_for("the tool is tilted");
     let nc = milled(&format!("{start}; T1 M6; G0 G43 Z400. H1"));
     Case { ready, settings, cl: changed, nc: &nc }.agrees();
 }
@@ -586,7 +585,7 @@ fn a_rapid_that_bends_along_a_leaning_head_is_found() {
         .agrees_but_not_with(("X66. Z-35.685", "X66. Z-36.685"), "Z");
     let bent = &["rotary.tip_output=0", "rapid.straight=2"];
     Case { ready: "fanuc-5x-head", settings: bent, cl, nc: &nc }
-        .asks_for("rapid by several axes while a head leans the tool");
+        .asks_for("rapid of several axes with a tilted head");
 }
 
 #[test]

@@ -36,7 +36,7 @@ fn passes_at_two_speeds_are_found() {
              Z4.; {between}X38.; G32 Z-16. F2.; G0 X50.; Z4.; M30; %"
         )
     };
-    let said = "turns otherwise than in the passes of the thread before";
+    let said = "the spindle speed differs from the earlier passes";
     assert_eq!(found("fanuc-lathe", &[], &cl(""), &nc("")), "");
     let other = found("fanuc-lathe", &[], &cl("SPINDL / RPM, 300, CLW; "), &nc("S300; "));
     assert!(other.contains(said), "{other}");
@@ -149,7 +149,7 @@ fn blocks_between_two_motions_of_a_pass_are_found() {
         ("THREAD / MMPR, 1; COOLNT / ON; ", "M8; G32 Z-16. F1."),
     ] {
         let said = found("fanuc-lathe", &[], &cl(record), &nc(blocks));
-        assert!(said.contains("blocks stand between two motions of one pass"), "{record}: {said}");
+        assert!(said.contains("blocks between two moves of one pass"), "{record}: {said}");
     }
 }
 
@@ -203,5 +203,5 @@ fn a_thread_right_behind_another_one_is_compared() {
     assert_eq!(check(nc), "");
     assert!(check(&nc.replace("X34.", "X34.2")).contains("the root is not reached"));
     let low = nc.replace("G0 X44.; Z-20.; M30", "G0 X40.; Z-20.; M30");
-    assert!(check(&low).contains("level clear of the thread"), "{}", check(&low));
+    assert!(check(&low).contains("clearance plane of the thread"), "{}", check(&low));
 }

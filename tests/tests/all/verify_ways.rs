@@ -45,17 +45,27 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
             "corpus/mills/mach4-mill/offsets",
             "N110 Z20.",
             "N105 Z-1.\nN110 Z20.",
-            "on no way to its",
+            "not on a path to its",
         ),
-        ("corpus/sinumerik/tools", "\nN60 Z50", "\nN55 Z-30\nN60 Z50", "on no way to its"),
-        ("corpus/sinumerik/tapping", "N150 X0 Y0", "N145 X=IC(1)\nN150 X0 Y0", "on no way to its"),
+        ("corpus/sinumerik/tools", "\nN60 Z50", "\nN55 Z-30\nN60 Z50", "not on a path to its"),
+        (
+            "corpus/sinumerik/tapping",
+            "N150 X0 Y0",
+            "N145 X=IC(1)\nN150 X0 Y0",
+            "not on a path to its",
+        ),
         (
             "corpus/posts/fanuc-5x-tables/faces",
             "N140 X-14.537",
             "N135 A1.\nN140 X-14.537",
-            "on no way to its end",
+            "not on a path to its end",
         ),
-        ("corpus/posts/fanuc-5x-head/holes", "N60 X7.519", "N55 B1.\nN60 X7.519", "on no way to"),
+        (
+            "corpus/posts/fanuc-5x-head/holes",
+            "N60 X7.519",
+            "N55 B1.\nN60 X7.519",
+            "not on a path to",
+        ),
         (
             "heidenhain-tnc640/holes.ncl.1",
             "26 L X+0 Y+0 FMAX",
@@ -93,9 +103,14 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
             "corpus/sinumerik/machine-positions",
             "N20 G53 G0 Z0 D0",
             "N20 G53 G0 Z0 D1",
-            "D1 is in force on the way to a position of the machine, which its length shifts",
+            "D1 is active in a move to machine coordinates, and its length shifts the move",
         ),
-        ("corpus/sinumerik/machine-positions", "N100 G53 G0 Z0 D0", "N100 G53 G0 Z0", "D1 is in"),
+        (
+            "corpus/sinumerik/machine-positions",
+            "N100 G53 G0 Z0 D0",
+            "N100 G53 G0 Z0",
+            "D1 is active",
+        ),
         (
             "corpus/lathe/fanuc-mill-turn/compensated",
             "M30",
@@ -109,9 +124,9 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
             "the spindle has 77 turns/min, none is asked for",
         ),
         // A plane that nobody has asked for, whose normal the length of the tool acts along.
-        ("corpus/sinumerik/tools", "N60 Z50", "N60 G18 Z50", "G18 of line 7 is in force"),
-        ("corpus/sinumerik/tools", "\nN70 G1", "\nN65 G19\nN70 G1", "G19 of line 8 is in force"),
-        ("corpus/sinumerik/planes", "N60 Z50", "N60 G19 Z50", "G19 of line 7 is in force"),
+        ("corpus/sinumerik/tools", "N60 Z50", "N60 G18 Z50", "G18 of line 7 is active"),
+        ("corpus/sinumerik/tools", "\nN70 G1", "\nN65 G19\nN70 G1", "G19 of line 8 is active"),
+        ("corpus/sinumerik/planes", "N60 Z50", "N60 G19 Z50", "G19 of line 7 is active"),
         ("corpus/mills/fanuc-mill/tools", "G43", "G18 G43", "G18 of line"),
         ("words/cutcom-after-an-arc-in-another-plane", "G17\n", "", "G18 of line"),
         // A zero that nobody has asked to move, and tolerances that nobody has asked for.
@@ -144,9 +159,9 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
             "\n15 CYCL DEF 7.1 X+1\n16 L",
             "without its first line",
         ),
-        ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 7.0\n16 L", "nothing says its values"),
-        ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 9.0\n16 L", "nothing says its values"),
-        ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 32.0\n16 L", "nothing says its values"),
+        ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 7.0\n16 L", "without its values"),
+        ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 9.0\n16 L", "without its values"),
+        ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 32.0\n16 L", "without its values"),
         (
             "corpus/klartext/tools",
             "\n16 L",
@@ -194,7 +209,7 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
             "corpus/lathe/fanuc-mill-turn/polar-square",
             "G0 X83.522 C0.",
             "G0 X83.523 C0.",
-            "which is on no way to its end",
+            "which is not on a path to its end",
         ),
     ] {
         let case = cases.iter().find(|case| case.name == name);
@@ -279,7 +294,7 @@ fn a_way_up_out_of_a_tilted_frame_goes_along_the_tool() {
         ("fanuc-5x-head", head("G69; G0 Z300.")),
     ] {
         let said = found(ready, &nc);
-        assert!(said.contains("which is on no way to its end"), "{ready}: {said}\n{nc}");
+        assert!(said.contains("which is not on a path to its end"), "{ready}: {said}\n{nc}");
     }
     // At the level of RETRCT a head that leans may go straight up: it is away from the part.
     let lean = "-0.0293388535, 0.0259948066, 0.9992314555";
@@ -298,7 +313,7 @@ fn a_way_up_out_of_a_tilted_frame_goes_along_the_tool() {
     let found = |nc: &str| back_check::found("fanuc-5x-tables", settings, &cl, nc);
     assert_eq!(found(nc), "");
     let said = found(&nc.replacen("Z700.", "Z690.", 1));
-    assert!(said.contains("which is on no way to its end"), "{said}");
+    assert!(said.contains("which is not on a path to its end"), "{said}");
 }
 
 /// Before the machine turns for a tilted frame it goes up to the level of the settings, in the

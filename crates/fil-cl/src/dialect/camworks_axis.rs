@@ -7,7 +7,7 @@ use super::{ArcSense, CircleForm, DialectRules, camworks};
 
 pub(super) const RULES: DialectRules = DialectRules {
     name: "camworks-axis",
-    title: "CAMWorks CLT (.clt) whose circles turn as their axis says",
+    title: "CAMWorks CLT (.clt) with arcs in the direction of their axis",
     signs: &[],
     circle: Some(CircleForm { counts: &[7], sense: ArcSense::ByAxis, proof: None }),
     ..camworks::RULES

@@ -143,7 +143,7 @@ fn spindle(written: &mut Written<'_>) -> Result<Outcome, FormError> {
             if written.state.is_inch {
                 return Ok(Outcome::Bound);
             }
-            let message = "feet or meters a minute: neither MMPM nor IPM nor UNITS came before";
+            let message = "feet or meters per minute: no MMPM, IPM or UNITS came before";
             let hint = "write SMM for meters; for feet choose --dialect generic";
             let error = FormError::new(ClCode::UnclearUnit, word - FIRST_DATA, message);
             return Err(error.hint(hint).leaning());

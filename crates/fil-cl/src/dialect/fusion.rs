@@ -82,10 +82,8 @@ fn compensation(written: &mut Written<'_>) -> Outcome {
 fn spindle(written: &Written<'_>) -> Result<Outcome, FormError> {
     match written.record.data[..] {
         [Word::Minor(w::ON | w::OFF)] => {
-            let message = "the public posts of this system write SPINDL/ON where the spindle \
-                           stops, and SPINDL/OFF where it starts";
-            let hint = "write the speed again with SPINDL/RPM, or stop the spindle by STOP; \
-                        where the words mean what they say, choose --dialect generic";
+            let message = "the public posts of this system write SPINDL/ON to stop the spindle, and SPINDL/OFF to start it";
+            let hint = "restate the speed with SPINDL/RPM, or stop the spindle by STOP; if the words are right, choose --dialect generic";
             Err(FormError::new(ClCode::MissingItem, 0, message).hint(hint))
         }
         _ => Ok(Outcome::Free),

@@ -33,8 +33,8 @@ pub(super) const RULES: DialectRules = DialectRules {
     rewrite: Some(rewrite),
     rewrite_text: Some(free_text::insert_or_note),
     without_effect: &[
-        ("CSI_SET_FLUTE_LENGTH", "length of the tool's flutes, for information"),
-        ("CSI_SET_EXTENSION_LENGTH", "length of the tool out of its holder, for information"),
+        ("CSI_SET_FLUTE_LENGTH", "flute length, for information"),
+        ("CSI_SET_EXTENSION_LENGTH", "tool length out of the holder, for information"),
     ],
 };
 

@@ -191,7 +191,7 @@ fn by_position(data: &[Word]) -> Result<Option<Couplets>, FormError> {
     }
     let [threads, clear, step] = tail(kind, rest)?;
     if clear.is_some_and(|clear| clear < 0.0) || step.is_some_and(|step| step <= 0.0) {
-        return wrong(4, "the R level lies above the start of the hole, and a peck is above zero");
+        return wrong(4, "the R plane must be above the start of the hole, and a peck above zero");
     }
     let mut couplets = vec![(w::DEPTH, depth)];
     couplets.extend(step.map(|step| (w::STEP, step)));
@@ -211,7 +211,7 @@ const KINDS: [WordId; 9] =
 /// has.
 fn tail(kind: WordId, rest: &[Word]) -> Result<[Option<f64>; 3], FormError> {
     let unclear = || {
-        let message = "which of threads an inch, R level and peck these values are is not clear";
+        let message = "these values may be threads per inch, R plane or peck";
         let hint = "write the cycle with couplets: DEPTH, STEP, CLEAR and their like";
         FormError::new(ClCode::MissingItem, 4, message).hint(hint)
     };
@@ -251,7 +251,7 @@ fn lead_of(threads: f64, feed: f64, unit: WordId) -> Result<f64, FormError> {
         w::MMPR => feed / INCH,
         _ => {
             let message =
-                "a tap with threads an inch and a feed a minute: their speed is not known";
+                "a tap with threads per inch and feed per minute: the spindle speed is not known";
             let hint = "write CYCLE/TAP with couplets, TPI or the feed";
             return Err(FormError::new(ClCode::MissingItem, 3, message).hint(hint));
         }

@@ -25,9 +25,8 @@ pub(crate) fn insert_or_note(record: &mut Record) -> Result<(), FormError> {
         Kind::Block => {}
         Kind::Note => record.major = words::PPRINT,
         Kind::Unclear => {
-            let message = format!("'{}' may be a block for the tape or a note", record.text.trim());
-            let hint = "write a note as PPRINT / text; --dialect generic sends each INSERT to the \
-                        tape as it is";
+            let message = format!("'{}' may be an NC block or a note", record.text.trim());
+            let hint = "write a note as PPRINT / text; --dialect generic writes each INSERT to the program as it is";
             return Err(FormError::new(ClCode::UnclearText, 0, message).hint(hint));
         }
     }

@@ -106,7 +106,7 @@ impl<'a> Parser<'a> {
         }
         self.skip_blanks();
         if self.text.get(self.at) != Some(&b'/') {
-            return self.wrong("a slash is missing behind the name of the shape");
+            return self.wrong("a slash is missing after the name of the shape");
         }
         self.at += 1;
         let parts = self.list(depth + 1)?;

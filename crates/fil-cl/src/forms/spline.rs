@@ -48,7 +48,7 @@ pub(crate) fn degree_and_count(knots: &[f64]) -> Result<(usize, usize), String> 
         ));
     }
     if inner.iter().any(|times| times >= order) {
-        return Err("a knot between comes so often that the curve has a gap".to_string());
+        return Err("an inner knot is repeated so often that the curve has a gap".to_string());
     }
     Ok((order - 1, knots.len() - order))
 }

@@ -127,7 +127,7 @@ pub(crate) fn bring_back(
         proved_position(table)?
     };
     if has_moved && table.in_force.is_none_or(|before| position.differs(before)) {
-        return Err(unclear("the table stands otherwise than for the motions before"));
+        return Err(unclear("the table position differs from the one of the moves before"));
     }
     table.in_force = Some(position);
     let Some(about) = position.about else { return Ok(()) };

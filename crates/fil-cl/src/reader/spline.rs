@@ -258,7 +258,7 @@ impl Reader<'_> {
         match self.modal.point {
             Some(stands) if norm(sub(stands, point)) <= NEAR => Ok(()),
             Some(_) => {
-                Err(self.spline_error("the first control point is not where the tool stands"))
+                Err(self.spline_error("the first control point is not at the tool position"))
             }
             None => Err(self.spline_error("a point to start from must come before the NURBS")),
         }

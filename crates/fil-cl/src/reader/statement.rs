@@ -166,7 +166,7 @@ impl Statement {
             if is_comment(bytes) {
                 recognition.comment(bytes.trim_ascii_start(), place);
             } else if is_statement(bytes) {
-                let message = "a comment goes on here, and the line reads as a statement";
+                let message = "a comment continues here, and the line reads as a statement";
                 return refuse(ClCode::OpenContinuation, message.to_string(), place());
             }
             if !breaks_at(bytes, recognition.rules()) {

@@ -59,7 +59,7 @@ impl Reader<'_> {
         let is_whole = arc.degrees > 360.0 - slack;
         if off > slack || is_whole != (norm(sub(from, to)) < NEAR) {
             let message = format!(
-                "the MOVARC of line {} turns by {} degrees, and to this point it would be {:.3}",
+                "the MOVARC of line {} has {} degrees, but to this point it would be {:.3}",
                 arc.line,
                 arc.degrees,
                 turn.rem_euclid(360.0)

@@ -19,8 +19,7 @@ fn way_out_of_threads(commons: &Commons, found: &mut Vec<Diag>) {
     let tenths = commons.int_opt(loc::THREAD_CHAMFER_TENTHS);
     if on != off {
         found.push(contradiction(
-            "thread.chamfer_on_code and thread.chamfer_off_code: one of them is not there, and \
-             the control goes on as the other one left it"
+            "thread.chamfer_on_code or thread.chamfer_off_code is missing, so the control would stay in the other state"
                 .into(),
         ));
     } else if tenths.is_some() && !on {
@@ -38,8 +37,7 @@ fn turns_behind_surface_speed(commons: &Commons, found: &mut Vec<Diag>) {
     let Some(code) = commons.read(loc::SPINDLE_CSS_CODE) else { return };
     if commons.read(loc::SPINDLE_RPM_CODE).is_none() {
         found.push(contradiction(format!(
-            "spindle.css_code G{code} makes S a surface speed, and no spindle.rpm_code makes it \
-             turns a minute again"
+            "spindle.css_code G{code} makes S a surface speed, but no spindle.rpm_code switches S back to rpm"
         )));
     }
 }

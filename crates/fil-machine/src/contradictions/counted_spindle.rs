@@ -37,20 +37,18 @@ pub(super) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     }
     if number.is_some() && (own > 0 || commons.int_opt(loc::CONTROL_SPINDLE_INDEX).is_some()) {
         find(
-            "spindle.side_number takes S and M without a number, and spindle.side_cw_code or \
-             control.spindle_index says otherwise",
+            "spindle.side_number needs S and M without a number, but spindle.side_cw_code or control.spindle_index adds one",
         );
     }
     if side.is_some() != main.is_some() || side.is_some() && side == main {
         find(
-            "spindle.side_master_code and spindle.main_master_code: the way there and the way \
-             back are two codes",
+            "spindle.side_master_code and spindle.main_master_code must both be set: one selects the sub-spindle, the other the main spindle",
         );
     }
     if side.is_some() && !(own == 0 || own == turns.len()) {
         find(
             "spindle.side_cw_code, spindle.side_ccw_code and spindle.side_stop_code: all of them \
-             turn the second spindle, or none where those of the main one do",
+             turn the sub-spindle, or none where those of the main one do",
         );
     }
 }

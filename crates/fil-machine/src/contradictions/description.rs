@@ -48,8 +48,7 @@ fn sense(commons: &Commons, chain: &AxisChain, refuse: &mut impl FnMut(String)) 
     if !chain.rotaries.iter().flatten().any(fits) {
         let (listed, given) = if asked { (1, "against") } else { (0, "as") };
         refuse(format!(
-            "rotary.eia_sense is {listed}, and the rotary axes turn {given} the standard, by their \
-             directions and their scales on the tape"
+            "rotary.eia_sense is {listed}, but the rotary axes turn {given} the standard, by their directions and output scales"
         ));
     }
 }

@@ -92,8 +92,7 @@ fn of_two_meanings(function: &Function, other: &Function) -> Diag {
     let mut diag = contradiction(message);
     if [other.meaning, function.meaning].contains(&Meaning::ReturnPlane) {
         diag.hint = Some(
-            "cycle.return_codes = 1 leaves the level out, as on lathes, where G98 and G99 are \
-             feeds."
+            "cycle.return_codes = 1 leaves out the return plane, as on lathes, where G98 and G99 are feed modes."
                 .into(),
         );
     }

@@ -83,8 +83,7 @@ fn functions(commons: &Commons, addresses: &Addresses, found: &mut Vec<Diag>) {
     let missing = [(letters::G, addresses.position(letters::G).is_none()), (letters::M, gave_way)];
     for (letter, _) in missing.into_iter().filter(|(_, is_missing)| *is_missing) {
         found.push(contradiction(format!(
-            "{letter} has no tape position, so that its functions would be lost; give it one \
-             (address.{letter}.slot) that no other letter has"
+            "{letter} has no tape position, so its functions would be lost; give it a free one (address.{letter}.slot)"
         )));
     }
 }
@@ -95,8 +94,7 @@ fn sequence_numbers(commons: &Commons, addresses: &Addresses, found: &mut Vec<Di
     let is_numbered = by_words && commons.read(loc::SEQNO_OFF_AT_START);
     if is_numbered && addresses.output(letters::N) == Output::Unknown {
         found.push(contradiction(
-            "N has no tape position, and blocks are numbered; give it one (address.N.slot) that no \
-             other letter has, or 53 to leave it out"
+            "N has no tape position, but blocks are numbered; give it a free one (address.N.slot), or 53 to leave it out"
                 .into(),
         ));
     }

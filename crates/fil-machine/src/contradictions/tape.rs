@@ -29,13 +29,13 @@ pub(super) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     let encoding = commons.read(loc::TAPE_ENCODING);
     if CodePage::numbered(encoding as u16).is_none() {
         let message =
-            format!("tape.encoding {}: this build has no pages of two bytes", encoding as u16);
+            format!("tape.encoding {}: this build has no two-byte code pages", encoding as u16);
         found.push(*MachineCode::SettingValue.diag(message));
     }
     let has_text = commons.read(loc::TAPE_PARTNO_TEXT) == TapePartnoText::Yes;
     if has_text && commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik {
         found.push(contradiction(
-            "tape.partno_text asks for a line before the head of a SINUMERIK program".into(),
+            "tape.partno_text puts a line before the header of a SINUMERIK program".into(),
         ));
     }
     lines(commons, found);
@@ -78,7 +78,7 @@ fn end_of_block(commons: &Commons, found: &mut Vec<Diag>) {
     let by_words = commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress;
     match mark {
         None if ends => found.push(contradiction(
-            "tape.end_of_block asks for a character, and tape.end_of_block_char is none".into(),
+            "tape.end_of_block needs a character, but tape.end_of_block_char is none".into(),
         )),
         // Variables, strings and operators of the others; all behind a semicolon is a comment.
         Some(mark) if ends && !by_words && mark != ';' => {
@@ -98,7 +98,7 @@ fn align(commons: &Commons, found: &mut Vec<Diag>) {
     }
     let Some(mark) = commons.read(loc::TAPE_ALIGN_CHAR) else {
         found.push(contradiction(
-            "seqno.align asks for a character, and tape.align_char is none".into(),
+            "seqno.align needs a character, but tape.align_char is none".into(),
         ));
         return;
     };
@@ -119,7 +119,7 @@ fn leader(commons: &Commons, found: &mut Vec<Diag>) {
     let is_written = !commons.read(loc::TAPE_DNC);
     match commons.read(loc::TAPE_LEADER_CHAR) {
         None if is_written && leads => found
-            .push(contradiction("tape.leader has a length, and tape.leader_char is none".into())),
+            .push(contradiction("tape.leader has a length, but tape.leader_char is none".into())),
         Some(mark) if is_written && (leads || trails) => {
             // A percent sign before the program would be its start.
             let begins = mark == '%' && leads;
@@ -143,8 +143,7 @@ fn message(commons: &Commons, found: &mut Vec<Diag>) {
         )),
         ('(', ')') | ('[', ']') | (';', _) => {}
         _ => found.push(contradiction(format!(
-            "message.out_char is `{open}` and message.in_char `{close}`, and a control has a \
-             comment between ( and ) or [ and ], or behind ; alone"
+            "message.out_char is `{open}` and message.in_char `{close}`, but comments need ( and ), [ and ], or ; alone"
         ))),
     }
     let goes_on = commons.read(loc::TAPE_CONTINUATION_CHAR);

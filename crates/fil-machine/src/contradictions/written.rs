@@ -78,7 +78,7 @@ fn dropped_zeros(commons: &Commons, addresses: &Addresses, letter: Letter, found
     let has_whole = [false, true].map(|metric| format.with_digits(digits, metric).decimals == 0);
     let what = match (has_whole.contains(&true), format.leading) {
         (true, _) => "has whole numbers: 10 would be read as 1",
-        (_, false) => "those in front too: nothing says where its point is",
+        (_, false) => "leading zeros too: its decimal point would be unknown",
         _ => return,
     };
     let mut diag =

@@ -151,12 +151,12 @@ fn refuse_a_lathe(file: &str, text: &str) -> Result<()> {
     };
     if says(&name, LATHE) {
         let diag = MachineCode::LatheOptionFile
-            .diag(format!("its name says that this is the option file of a lathe ({LATHE})"));
+            .diag(format!("its name is that of a lathe's option file ({LATHE})"));
         return Err(Box::new(diag.at(TextSpan::line(file, 1, head))));
     }
     if says(&head.to_ascii_uppercase(), LATHE) {
         let diag = MachineCode::LatheOptionFile
-            .diag(format!("the first line says that this is the option file of a lathe ({LATHE})"));
+            .diag(format!("the first line names the option file of a lathe ({LATHE})"));
         return Err(Box::new(diag.at(TextSpan::line(file, 1, head))));
     }
     Ok(())

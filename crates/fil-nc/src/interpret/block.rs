@@ -173,7 +173,7 @@ impl State<'_> {
                     Some(Function::Rapid) => self.straight(words, Course::Rapid),
                     Some(Function::Linear) => self.straight(words, Course::Feed),
                     Some(Function::Arc { ccw }) => self.arc(words, ccw),
-                    _ => Err(Fault::new(NcCode::NoMotion, "no G word says how the axes move")),
+                    _ => Err(Fault::new(NcCode::NoMotion, "no G code for this axis move")),
                 }
             }
         }

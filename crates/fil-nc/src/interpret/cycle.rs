@@ -106,7 +106,7 @@ impl State<'_> {
             |what: &str| Fault::new(NcCode::MissingWord, format!("the cycle needs {what}"));
         let hole = Hole {
             axis: cycle.live.unwrap_or(self.plane),
-            clear: cycle.clear.ok_or_else(|| missing("its R level"))?,
+            clear: cycle.clear.ok_or_else(|| missing("its R plane"))?,
             bottom: cycle.bottom.ok_or_else(|| missing("its depth"))?,
         };
         let pecks = cycle.pecks();

@@ -54,19 +54,18 @@ impl State<'_> {
             return Ok(None);
         }
         let [Some(i), Some(j), Some(k)] = parts else {
-            let message =
-                "controls differ in what a part of the tool's direction is that is not said";
+            let message = "controls differ in how they complete a partial tool direction vector";
             return Err(Fault::new(NcCode::MissingWord, message));
         };
         if !self.modes.frame.tip_control {
-            let message = "the direction of the tool is a vector without tool-tip control";
+            let message = "a tool direction vector without TCPC";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }
         let direction = Unit::try_new(Vector3::new(i, j, k), NONE)
             .ok_or_else(|| Fault::new(NcCode::BadNumber, "a direction of length zero"))?;
         for (axis, rotary) in self.dialect.forward.rotaries().iter().enumerate() {
             if rotary.is_some() && !self.known[axis + 3] {
-                let message = "a direction, and where the rotary axes stand is not known";
+                let message = "a tool direction vector while the rotary position is not known";
                 return Err(Fault::new(NcCode::NoMeaning, message));
             }
         }

@@ -205,14 +205,14 @@ impl State<'_> {
             return Ok(course);
         }
         if self.feed.mode == FeedMode::PerTurn {
-            return refuse("a feed a turn of a main spindle that is the axis C");
+            return refuse("feed per revolution of a main spindle in C-axis mode");
         }
         if self.live.polar {
             return self.polar_course(to, course);
         }
         if turns && course == Course::Feed {
             let Some(radius) = self.live.cylinder else {
-                return refuse("C turns at a feed a minute that counts on no cylinder");
+                return refuse("C moves at feed per minute without a cylinder");
             };
             if [self.at[0], to[0]].iter().any(|x| (x - radius).abs() > DIGITS) {
                 return refuse("C turns at a feed beside the cylinder on which it counts");

@@ -44,7 +44,7 @@ impl State<'_> {
         axes: &[AxisWord],
     ) -> Result<(), Fault> {
         if !cycle.initial_known {
-            return refuse("a cycle of live tools, and where its axis stands is not known");
+            return refuse("a cycle of live tools while the position of its axis is not known");
         }
         match words.take(R)? {
             None | Some(0.0) => cycle.clear = Some(cycle.initial),
@@ -67,7 +67,7 @@ impl State<'_> {
             cycle.dwell = Some(dwell / self.dialect.factor(Amount::Dwell));
         }
         if cycle.bottom.is_some_and(|bottom| bottom >= cycle.initial) {
-            return refuse("the bottom of a hole lies above the level before the cycle");
+            return refuse("the bottom of a hole is above the initial plane");
         }
         Ok(())
     }
@@ -80,15 +80,13 @@ impl State<'_> {
         let pecks = self.dialect.turning.live_pecks;
         let Some(kind) = pecks.kind else {
             return refuse(
-                "how far a peck of a live tool comes out is said by a parameter \
-                 (mill_turn.peck_form)",
+                "the retract of a live tool's peck depends on a parameter (mill_turn.peck_form)",
             );
         };
         let is_diameter = if along == 0 { pecks.side_is_diameter } else { Some(false) };
         let Some(is_diameter) = is_diameter else {
             return refuse(
-                "whether a peck along X is a radius or a diameter is said by a parameter \
-                 (mill_turn.side_peck)",
+                "a peck along X may be a radius or a diameter, by a parameter (mill_turn.side_peck)",
             );
         };
         let step = self.length(along, step) / if is_diameter { 2.0 } else { 1.0 };

@@ -115,7 +115,7 @@ impl Events for Running<'_> {
         };
         more.map_err(|mut refused| {
             if self.dialect.leaves_blocks_out() {
-                refused.message.push_str(", with the blocks behind / left out");
+                refused.message.push_str(", with block delete on");
             }
             match self.of_another_family() {
                 Some(note) => Box::new(refused.note(note)),

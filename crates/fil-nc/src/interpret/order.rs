@@ -130,7 +130,7 @@ impl Order {
             }
             Part::Subprogram => return Err(cut_off("the last subprogram does not end")),
             Part::Head | Part::Body if self.has_end => {
-                return Err(cut_off("the tape ends before an end code"));
+                return Err(cut_off("the program ends without an end code"));
             }
             _ => self.part = Part::Closed,
         }

@@ -58,7 +58,7 @@ impl State<'_> {
             return Err(missing("to know where X and Z stand"));
         }
         if self.way_out(None)? > 0.0 {
-            return refuse("how G71 leaves a thread behind M23 is not followed");
+            return refuse("the run-out of G71 with M23 is not supported");
         }
         let depths = [height, first].map(|depth| self.way(X, depth));
         self.thread_by_roots(end, depths, lead)

@@ -85,7 +85,7 @@ impl State<'_> {
         let way = [0, 1, 2].map(|axis| (target.0[axis] - self.at[axis]).abs());
         let longest = way.into_iter().fold(0.0, f64::max);
         if lead * lead + 2.0 * change * longest <= 0.0 {
-            let message = "the lead comes to nothing before the end of the thread";
+            let message = "the lead reaches zero before the end of the thread";
             return Err(Fault::new(NcCode::BadNumber, message));
         }
         self.go(target, Course::Thread, Some(Rate::Varying(lead, change)));
@@ -110,7 +110,8 @@ impl State<'_> {
     ) -> Result<f64, Fault> {
         let is_per_minute = self.feed.mode == FeedMode::PerMinute;
         if is_per_minute && self.dialect.has(Habit::ThreadsNeedTurns) && letters.contains(&F) {
-            let message = "a thread under a feed a minute, where this machine needs one a turn";
+            let message =
+                "a thread with feed per minute, but this machine needs feed per revolution";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }
         self.feed.word = None;
@@ -169,10 +170,9 @@ impl State<'_> {
             (Some(false), _) => Ok(0.0),
             (Some(true), Some(leads)) => Ok(leads),
             (Some(true), None) => refuse(
-                "the thread is left at an angle, and on which length is said by a parameter \
-                 (thread.chamfer_tenths)",
+                "the run-out of the thread is at an angle, and its length depends on a parameter (thread.chamfer_tenths)",
             ),
-            (None, _) => refuse("no block says whether the thread is left at an angle"),
+            (None, _) => refuse("no block sets the run-out of the thread"),
         }
     }
 

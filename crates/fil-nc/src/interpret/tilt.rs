@@ -41,7 +41,7 @@ impl State<'_> {
             return Ok(false);
         }
         if let Some((_, range)) = words.auxiliaries.first() {
-            let message = "an auxiliary function in the block of a tilted frame";
+            let message = "an auxiliary function in the block of a tilted work plane";
             return Err(Fault::new(NcCode::NoMeaning, message).at(range));
         }
         match words.function(Group::Tilt) {
@@ -70,16 +70,16 @@ impl State<'_> {
     pub(super) fn begin_tilt(&mut self, tilt: Tilt) -> Result<(), Fault> {
         let refuse = |why: &str| Err(Fault::new(NcCode::NoMeaning, why));
         if self.head.tilt.is_some() {
-            return refuse("a tilted frame within another one; the first must be ended");
+            return refuse("a tilted work plane within another one; the first must be ended");
         }
         if self.modes.frame.tip_control {
-            return refuse("a tilted frame begins under tool-tip control");
+            return refuse("a tilted work plane starts under TCPC");
         }
         if self.modes.compensation.side != Compensation::Off {
-            return refuse("a tilted frame begins under cutter compensation");
+            return refuse("a tilted work plane begins under cutter compensation");
         }
         if self.cycle.active.is_some() {
-            return refuse("a tilted frame begins while a cycle is in force");
+            return refuse("a tilted work plane begins while a cycle is in force");
         }
         self.counts_in(Some(tilt));
         self.modes.frame.tilted = true;
@@ -110,12 +110,12 @@ impl State<'_> {
     /// of the frame.
     fn stands_along(&self) -> Result<[f64; 2], Fault> {
         let Some(tilt) = self.head.tilt else {
-            return Err(Fault::new(NcCode::NoMeaning, "no tilted frame is in force"));
+            return Err(Fault::new(NcCode::NoMeaning, "no tilted work plane is in force"));
         };
         let forward = &self.dialect.forward;
         let present = |axis: &usize| forward.rotaries()[*axis].is_some();
         if !(0..2).filter(present).all(|axis| self.known[axis + 3]) {
-            let message = "where the rotary axes stand before the tilted frame is not known";
+            let message = "the rotary position before the tilted work plane is not known";
             return Err(Fault::new(NcCode::MissingWord, message));
         }
         let stands = [self.at[3], self.at[4]];
@@ -123,7 +123,7 @@ impl State<'_> {
         let along = forward.refine(stands, axis);
         let near = (0..2).all(|n| (along[n] - stands[n]).abs() < NEAR);
         if !near || (forward.axis(along) - axis).norm() > SAME {
-            let message = "the tool does not lie along Z of the tilted frame, and which of the \
+            let message = "the tool does not lie along Z of the tilted work plane, and which of the \
                            positions of the rotary axes the control turns to is not known: turn \
                            there before the frame begins";
             return Err(Fault::new(NcCode::NoMeaning, message));
@@ -163,11 +163,14 @@ impl State<'_> {
             return Ok(());
         }
         if !self.head.aligned {
-            let message = "a motion in a tilted frame before the tool is turned along its Z";
+            let message = "a motion in a tilted work plane before the tool is turned along its Z";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }
         if turns {
-            return Err(Fault::new(NcCode::NoMeaning, "a rotary axis turns in a tilted frame"));
+            return Err(Fault::new(
+                NcCode::NoMeaning,
+                "a rotary axis turns in a tilted work plane",
+            ));
         }
         Ok(())
     }
@@ -182,13 +185,13 @@ impl State<'_> {
                 Function::Fixture(code) if self.moves_fixture(code) => "another work offset",
                 Function::NumberedFixture(_) => "another work offset",
                 Function::Units { metric } if metric != self.metric => "another unit",
-                Function::TipControl => "tool-tip control",
+                Function::TipControl => "TCPC",
                 Function::MachineFrame | Function::Reference | Function::NumberedReference => {
                     "a point of the machine"
                 }
                 _ => continue,
             };
-            let message = format!("{what} in a tilted frame");
+            let message = format!("{what} in a tilted work plane");
             return Err(Fault::new(NcCode::NoMeaning, message).at(range));
         }
         if !words.has_axes(self.dialect) {

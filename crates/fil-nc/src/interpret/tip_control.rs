@@ -20,11 +20,11 @@ impl State<'_> {
         let on = self.modes.frame.tip_control;
         match words.peek(Group::Length) {
             Some(Function::TipControl | Function::TipControlByDirection) if on => {
-                refuse(words, "tool-tip control is on already")
+                refuse(words, "TCPC is already on")
             }
             Some(Function::TipControl | Function::TipControlByDirection) => self.check_begin(words),
             Some(Function::Length(true)) if on => {
-                refuse(words, "tool-tip control must first be ended by G49")
+                refuse(words, "TCPC must first be cancelled by G49")
             }
             Some(_) if on => self.check_end(words),
             None if on => self.check_on(words),
@@ -36,10 +36,10 @@ impl State<'_> {
         let gives_up = |function: Function| words.peek(function.group()) == Some(function);
         let compensates = self.modes.compensation.side != Compensation::Off;
         if compensates && !gives_up(Function::Compensation(Compensation::Off)) {
-            return refuse(words, "tool-tip control begins under cutter compensation");
+            return refuse(words, "TCPC starts during cutter compensation");
         }
         if self.cycle.active.is_some() && !gives_up(Function::CycleOff) {
-            return refuse(words, "tool-tip control begins while a cycle is in force");
+            return refuse(words, "TCPC starts in an active cycle");
         }
         if !self.dialect.has(Habit::TipControlAnywhere) {
             self.check_tables(words)?;
@@ -52,8 +52,7 @@ impl State<'_> {
         for axis in self.dialect.tables() {
             let letter = char::from(b'@' + self.dialect.axes[axis].letter);
             if !self.known[axis] {
-                let message =
-                    format!("G43.4 needs {letter} at 0, and where it stands is not known");
+                let message = format!("G43.4 needs {letter} at 0, but its position is not known");
                 return Err(at_length(words, Fault::new(NcCode::MissingWord, message)));
             }
             if !is_zero(self.at[axis]) {
@@ -92,7 +91,7 @@ impl State<'_> {
 
     fn check_on(&self, words: &Words) -> Result<(), Fault> {
         if let Some(range) = words.range_of(H) {
-            let message = "another length offset under tool-tip control; G49 must end it first";
+            let message = "another tool length offset under TCPC; cancel it with G49 first";
             return Err(Fault::new(NcCode::NoMeaning, message).at(range));
         }
         self.check_functions(words)
@@ -134,17 +133,16 @@ impl State<'_> {
     pub(super) fn begin_stated_tip_control(&mut self) -> Result<(), Fault> {
         let refuse = |why: &str| Err(Fault::new(NcCode::NoMeaning, why));
         if self.modes.compensation.side != Compensation::Off {
-            return refuse("tool-tip control begins under cutter compensation");
+            return refuse("TCPC starts during cutter compensation");
         }
         if self.head.tilt.is_some() {
-            return refuse("tool-tip control begins in a tilted plane");
+            return refuse("TCPC starts in a tilted work plane");
         }
         for axis in self.dialect.tables() {
             let stands = self.known[axis] && is_zero(self.at[axis]);
             if !(stands || self.dialect.has(Habit::TipControlAnywhere)) {
                 return refuse(
-                    "tool-tip control begins with a table away from 0, where controls differ in \
-                     how the part lies, or where it stands is not known",
+                    "TCPC starts with a table that is not at 0, where controls differ, or at an unknown position",
                 );
             }
         }
@@ -166,7 +164,7 @@ impl State<'_> {
         by_direction: bool,
     ) -> Result<(), Fault> {
         let offset = words.take_whole(H)?;
-        let missing = || Fault::new(NcCode::MissingWord, "tool-tip control needs its H");
+        let missing = || Fault::new(NcCode::MissingWord, "TCPC needs an H word");
         self.modes.length.offset = Some(offset.ok_or_else(missing)?);
         self.modes.frame.tip_control = true;
         self.modes.frame.tip_control_line = self.line;
@@ -198,7 +196,7 @@ fn is_zero(degrees: f64) -> bool {
 }
 
 fn differ(what: &str) -> Fault {
-    let message = format!("controls differ in what {what} does under tool-tip control");
+    let message = format!("controls differ in what {what} does under TCPC");
     Fault::new(NcCode::NoMeaning, message)
 }
 

@@ -56,7 +56,8 @@ impl State<'_> {
             return Ok(());
         }
         let letter = char::from(b'A' - 1 + self.dialect.axes[axis].letter);
-        let message = format!("{letter} goes half a turn, and neither way is the shortest");
+        let message =
+            format!("{letter} moves by 180 degrees, and both directions are equally short");
         Err(Fault::new(NcCode::NoMeaning, message))
     }
 

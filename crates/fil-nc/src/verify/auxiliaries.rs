@@ -80,7 +80,7 @@ impl Auxiliaries {
                 let [first, last] = asked.lines;
                 if !(first..=last).contains(line) {
                     let message = format!(
-                        "M{code} stands elsewhere, it should be between lines {first} and {last}"
+                        "M{code} is elsewhere, it should be between lines {first} and {last}"
                     );
                     find(&mut report, Some(asked.cl_line), Some(*line), message);
                 }

@@ -16,7 +16,7 @@ use crate::motion::{Course, Event, Move, Position};
 impl Settings<'_> {
     /// Motions under a tool axis that stands still are written in tilted frames.
     fn turns_for_frames(&self) -> bool {
-        self.commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedFrame
+        self.commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedWorkPlane
     }
 }
 
@@ -121,7 +121,7 @@ impl<C: Steps> Verifier<'_, C> {
         let place = match self.height {
             Some(stands) if of_machine => format!("at Z{} of the part", short(stands)),
             Some(stands) => format!("at Z{}", short(stands)),
-            None => "where Z has not been said since the last frame".to_string(),
+            None => "where Z has not been programmed since the last tilted work plane".to_string(),
         };
         let message = format!(
             "the machine turns {place}, the tool must have gone up to Z{} before",

@@ -83,7 +83,7 @@ impl<C: Steps> Verifier<'_, C> {
         let last = self.last_line();
         if last <= next && line > next {
             let message = format!(
-                "the block `{text}` of INSERT stands elsewhere, it should be between lines {last} and {next}"
+                "the block `{text}` of INSERT is elsewhere, it should be between lines {last} and {next}"
             );
             self.find(FindingKind::Block, Some(cl_line), Some(line), message);
         }
@@ -142,7 +142,7 @@ impl<C: Steps> Verifier<'_, C> {
                 "what it writes was not compared"
             }
             Effect::Path | Effect::Doubtful(_) => {
-                "the CL file does not say what path it makes; nothing after it was compared"
+                "the CL file does not give its path; nothing after it was compared"
             }
         };
         self.report

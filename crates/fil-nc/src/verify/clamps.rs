@@ -58,7 +58,7 @@ impl Clamps {
         let cuts = matches!(found.course, Course::Feed | Course::Thread);
         let message = match self.held {
             Some(false) if cuts && self.in_frames && found.to.tilt.is_some() => {
-                Some(format!("cuts in a tilted frame before M{}", self.clamp))
+                Some(format!("cuts in a tilted work plane before M{}", self.clamp))
             }
             Some(false) => None,
             None if !self.in_frames => None,

@@ -290,11 +290,11 @@ impl<C: Steps> Verifier<'_, C> {
             let low = at[2].min(to[2]) < levels.clear - slack[2];
             let comes = self.settings.is_mill_turn() && found.known[0] && !self.known[0];
             if (across || comes) && self.known[2] && low {
-                return Err((found.line, "rapid goes across below the R level".to_string()));
+                return Err((found.line, "rapid in XY below the R plane".to_string()));
             }
             let level = near(to[2], levels.clear, 2) || near(to[2], raised, 2);
             if z_moves && !level {
-                return Err((found.line, self.spell_level("the R level", to[2], levels.clear)));
+                return Err((found.line, self.spell_level("the R plane", to[2], levels.clear)));
             }
             raise &= !near(to[2], raised, 2);
             // The cycle begins on the level to return to.
@@ -316,7 +316,7 @@ impl<C: Steps> Verifier<'_, C> {
         }
         if !near(self.at.linear[2], levels.clear, 2) {
             let line = self.next_move().map_or(0, |found| found.line);
-            return Err((line, self.spell_level("the R level", self.at.linear[2], levels.clear)));
+            return Err((line, self.spell_level("the R plane", self.at.linear[2], levels.clear)));
         }
         let initial = self.memory.initial.unwrap_or(levels.clear);
         Ok(match hole.retract {
@@ -395,7 +395,7 @@ impl<C: Steps> Verifier<'_, C> {
         };
         self.vertical(&found)?;
         if !found.known[2] {
-            return Err((found.line, format!("{what} is a level that no block has said")));
+            return Err((found.line, format!("{what} is a plane that no block has programmed")));
         }
         let off = found.to.linear[2] - z;
         self.report.position.add(off.abs(), found.line);

@@ -54,7 +54,7 @@ impl<C: Steps> Verifier<'_, C> {
         // What a code of a machine's own does with the spindle is not known.
         let is_open = out == Out::Any && kind == CycleKind::Bore;
         if first.modes.spindle.turn != spindle && !is_open {
-            let message = "the spindle is not as it should be on the way out".to_string();
+            let message = "the spindle state is wrong during the retract".to_string();
             return Err((first.line, message));
         }
         if (first.to.linear[2] - rest).abs() > self.slack.linear[2] {
@@ -85,8 +85,7 @@ impl<C: Steps> Verifier<'_, C> {
             }
         };
         if !returns {
-            let message =
-                format!("the tool does not go back to Z{} behind the cycle", short(level));
+            let message = format!("the tool does not return to Z{} after the cycle", short(level));
             self.find(FindingKind::Missing, Some(cl_line), None, message);
         }
     }

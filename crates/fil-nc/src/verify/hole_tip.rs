@@ -227,7 +227,7 @@ impl<C: Steps> Verifier<'_, C> {
             Some(_) => return clear,
         };
         if (height - level).abs() > 2.0 * self.tip_slack(&found.to) {
-            let message = self.spell_level("the level over the hole", height, level);
+            let message = self.spell_level("the plane over the hole", height, level);
             self.find(FindingKind::Cycle, Some(cl_line), Some(found.line), message);
         }
         level

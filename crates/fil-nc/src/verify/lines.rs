@@ -196,7 +196,7 @@ impl<C: Steps> Verifier<'_, C> {
             }
             Lie::Leaning => match self.lies_nearly_along(end) {
                 None if self.limits.splits_rapids => {
-                    return vec!["rapid does not go along the tool, which leans".to_string()];
+                    return vec!["rapid does not go along the tilted tool".to_string()];
                 }
                 nearly => nearly.unwrap_or(Lie::Leaning),
             },
@@ -248,7 +248,8 @@ impl<C: Steps> Verifier<'_, C> {
         let astray = strays || is_blind || finds_level || self.turns_astray(part, &end);
         if astray || (0..3).any(|n| leaves(n) && !(n == tool && lifts)) {
             let [x, y, z] = to.map(short);
-            let message = format!("rapid by way of X{x} Y{y} Z{z}, which is on no way to its end");
+            let message =
+                format!("rapid through X{x} Y{y} Z{z}, which is not on a path to its end point");
             wrong.push(message);
         }
         let letter = ["X", "Y", "Z"][tool];
@@ -343,7 +344,7 @@ impl<C: Steps> Verifier<'_, C> {
         let falls = way(2) < -2.0 * self.slack.linear[2] - STILL;
         let astray = raises && !leaves_frame && !self.is_retract_level(part.to.linear[2]);
         if way(0).abs() > STILL || way(1).abs() > STILL || falls || astray {
-            let message = "rapid before its tilted frame begins, which is no way up".to_string();
+            let message = "rapid before its tilted work plane, and not a retract".to_string();
             self.find(FindingKind::Order, Some(cl_line), Some(part.line), message);
         }
     }

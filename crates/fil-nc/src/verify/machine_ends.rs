@@ -138,7 +138,7 @@ impl<C: Steps> Verifier<'_, C> {
         let edge = found.modes.length.offset.filter(|_| self.settings.has_edges());
         if let Some(edge) = edge {
             let message = format!(
-                "D{edge} is in force on the way to a position of the machine, which its length shifts"
+                "D{edge} is active in a move to machine coordinates, and its length shifts the move"
             );
             self.find(FindingKind::Tool, Some(cl_line), Some(found.line), message);
         }
@@ -173,7 +173,7 @@ impl<C: Steps> Verifier<'_, C> {
         });
         if !goes_up {
             let line = self.nc.get(self.next).map(|event| event.line());
-            let message = "the tool leans, and does not go up along itself".to_string();
+            let message = "the tool is tilted, and does not retract along its axis".to_string();
             self.find(FindingKind::Order, Some(cl_line), line, message);
         }
     }

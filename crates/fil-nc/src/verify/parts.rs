@@ -92,19 +92,22 @@ impl<C: Steps> Verifier<'_, C> {
             let (kind, message) = match fault {
                 Fault::Tip(off) => (
                     FindingKind::Position,
-                    format!("on the way the tip is {} off its line", short(*off)),
+                    format!("during the move the tip is {} off its line", short(*off)),
                 ),
-                Fault::Axis => {
-                    (FindingKind::Axis, "on the way the tool is not between its ends".to_string())
-                }
+                Fault::Axis => (
+                    FindingKind::Axis,
+                    "during the move the tool axis is not between its end positions".to_string(),
+                ),
                 Fault::Step(off) => (
                     FindingKind::Position,
                     format!(
-                        "on the way the tip is {} from where it should be as the machine stands",
+                        "during the move the tip is {} from its position on the machine",
                         short(*off)
                     ),
                 ),
-                Fault::Back => (FindingKind::Position, "on the way the tip goes back".to_string()),
+                Fault::Back => {
+                    (FindingKind::Position, "during the move the tip goes back".to_string())
+                }
             };
             self.find(kind, Some(cl_line), Some(*line), message);
         }

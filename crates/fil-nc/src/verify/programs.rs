@@ -363,12 +363,12 @@ impl Pair<'_> {
             (
                 a.frame.tip_control != b.frame.tip_control,
                 FindingKind::Tool,
-                "tool-tip control is not as it should be".to_string(),
+                "the TCPC state is wrong".to_string(),
             ),
             (
                 a.frame.tilted != b.frame.tilted,
                 FindingKind::Tool,
-                "the tilted frame is not as it should be".to_string(),
+                "the tilted work plane is not as it should be".to_string(),
             ),
             (
                 (a.compensation.side, a.compensation.offset)
@@ -400,18 +400,18 @@ impl Pair<'_> {
             (
                 b.unsaid.spindle && !a.unsaid.spindle,
                 FindingKind::Spindle,
-                "the spindle is not switched on again behind the tool change or stop".to_string(),
+                "the spindle is not switched on again after the tool change or stop".to_string(),
             ),
             (
                 b.unsaid.coolant && !a.unsaid.coolant,
                 FindingKind::Coolant,
-                "the coolant is not switched on again behind the tool change or stop".to_string(),
+                "the coolant is not switched on again after the tool change or stop".to_string(),
             ),
             (
                 a.planes.unusual.map(|(normal, _)| normal)
                     != b.planes.unusual.map(|(normal, _)| normal),
                 FindingKind::Tool,
-                "the length of the tool acts along another axis".to_string(),
+                "the tool length offset acts along another axis".to_string(),
             ),
             (
                 [a.planes.other, a.length.plane].map(|other| other.map(|other| other.normal))
@@ -428,7 +428,7 @@ impl Pair<'_> {
             (
                 a.path_control.is_some() != b.path_control.is_some(),
                 FindingKind::Extra,
-                "how the path is followed is said, or not, by a statement".to_string(),
+                "the path mode depends on a statement".to_string(),
             ),
             (
                 a.frame.fixture != b.frame.fixture,

@@ -80,8 +80,7 @@ impl<C: Steps> Verifier<'_, C> {
             false => count > 1 && moves(2),
         };
         if leans && by_several {
-            let message = "rapid by several axes while a head leans the tool: each goes at its own \
-                           speed, and the tool leaves its line";
+            let message = "rapid of several axes with a tilted head: each moves at its own speed, and the tool leaves its line";
             self.find(FindingKind::Order, Some(cl_line), Some(found.line), message.to_string());
         }
     }

@@ -263,7 +263,7 @@ impl<C: Steps> Verifier<'_, C> {
             return;
         }
         let message = format!(
-            "feed {} blocks a minute, which is {} mm/min on this way of {}, it should be {} mm/min",
+            "feed {} blocks per minute, which is {} mm/min on this move of {}, it should be {} mm/min",
             short(inverse),
             short(inverse * way),
             short(way),
@@ -315,7 +315,7 @@ impl<C: Steps> Verifier<'_, C> {
         let slack = self.slack.of(Quantity::InverseTime) + must * digits / turned[0].max(turned[1]);
         if (inverse - must).abs() > slack {
             let message = format!(
-                "feed {} blocks a minute, it should be {}, as long as the turn takes at least",
+                "feed {} blocks per minute, it should be {}, the shortest time of the rotary move",
                 short(inverse),
                 short(must)
             );

@@ -206,7 +206,7 @@ impl Report {
     pub fn with_blocks_left_out(mut self, other: Report) -> Report {
         for finding in other.findings {
             if !self.findings.contains(&finding) {
-                let message = format!("{}, with the blocks behind / left out", finding.message);
+                let message = format!("{}, with block delete on", finding.message);
                 self.find(Finding { message, ..finding });
             }
         }

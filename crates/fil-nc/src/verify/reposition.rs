@@ -342,13 +342,13 @@ impl<C: Steps> Verifier<'_, C> {
     ) {
         let spindle = if how.stands { Spindle::Off } else { before.spindle.turn };
         if found.spindle.turn != spindle && !(how.by_macro && found.spindle.turn == Spindle::Off) {
-            let does = if how.stands { "stand" } else { "go on as before" };
+            let does = if how.stands { "stand" } else { "continue as before" };
             let message = format!("the spindle should {does} while the machine turns");
             self.find(FindingKind::Spindle, Some(cl_line), Some(line), message);
         }
         let coolant = if how.dry { None } else { before.coolant };
         if found.coolant != coolant && !(how.by_macro && found.coolant.is_none()) {
-            let does = if how.dry { "be off" } else { "go on as before" };
+            let does = if how.dry { "be off" } else { "continue as before" };
             let message = format!("coolant should {does} while the machine turns");
             self.find(FindingKind::Coolant, Some(cl_line), Some(line), message);
         }

@@ -105,7 +105,7 @@ impl RotaryRules {
             wrong.push((FindingKind::Axis, said.to_string()));
         }
         if matches!(found.rate, Some(Rate::Inverse(_))) && self.begins_anywhere(found) {
-            let said = "the feed is a time for a way that begins where nobody knows";
+            let said = "inverse-time feed on a move from an unknown start point";
             wrong.push((FindingKind::Feed, said.to_string()));
         }
         wrong
@@ -127,7 +127,7 @@ impl RotaryRules {
             true if (0..2)
                 .any(|n| self.is_fresh && self.turns_one_way[n] && turn(n) > HALF_TURN) =>
             {
-                Some("a rotary axis turns the long way round at feed behind a tool change")
+                Some("a rotary axis turns the long way at feed after a tool change")
             }
             _ => None,
         }

@@ -47,8 +47,7 @@ impl Rules {
         match event {
             Event::Move(found) => self.motion(found),
             Event::LeftToControl { line, mode } => {
-                let said =
-                    "is left to the control: no block says it, and the machine does not state it";
+                let said = "is left to the control: no block sets it, and the machine settings don't either";
                 self.find(FindingKind::StartMode, *line, format!("{} {said}", mode.name()));
             }
             Event::ToolMeasured { line } => {
@@ -70,7 +69,7 @@ impl Rules {
 
     fn stray_offset(&mut self, line: u32, modes: &Modes) {
         if let Some(offset) = modes.length.stray.filter(|_| self.stray != modes.length.stray) {
-            let said = "stands after a tool change without the function of the length offset";
+            let said = "follows a tool change without the tool length offset";
             self.find(FindingKind::Tool, line, format!("H{offset} {said}"));
         }
         self.stray = modes.length.stray;

@@ -116,11 +116,11 @@ pub(super) fn spell_gap(axis: usize, stands: f64, gap: f64) -> String {
 pub(super) fn spell_rate(rate: Rate) -> String {
     match rate {
         Rate::PerMinute(rate) => format!("{} mm/min", short(rate)),
-        Rate::PerTurn(rate) => format!("{} mm a turn", short(rate)),
+        Rate::PerTurn(rate) => format!("{} mm/rev", short(rate)),
         Rate::Varying(rate, change) => {
-            format!("{} mm a turn and {} more in each turn", short(rate), short(change))
+            format!("{} mm/rev, increasing by {} each revolution", short(rate), short(change))
         }
-        Rate::Inverse(rate) => format!("{} blocks a minute", short(rate)),
+        Rate::Inverse(rate) => format!("{} blocks per minute", short(rate)),
     }
 }
 

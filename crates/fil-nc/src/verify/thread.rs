@@ -215,20 +215,17 @@ impl<C: Steps> Verifier<'_, C> {
         }
         let begins = gauge.along(&found.to) <= to * gauge.slope + gauge.slack * (1.0 + gauge.slope);
         if below(to) && !begins {
-            return wrong("goes into the thread behind its start", self);
+            return wrong("enters the thread after its start", self);
         }
         let begins_cycle = found.in_cycle && !self.in_thread_cycle();
         if begins_cycle && !gauge.is_clear(&self.at) {
             return wrong("begins the cycle elsewhere than clear of the thread", self);
         }
         if !found.in_cycle && below(to) && !gauge.is_clear(&self.at) {
-            return wrong(
-                "goes into the thread from another level than that it goes back to",
-                self,
-            );
+            return wrong("enters the thread from a plane other than the return plane", self);
         }
         if !found.in_cycle && !below(to) && !is_approach && !gauge.is_clear(&found.to) {
-            return wrong("does not go back to the level clear of the thread", self);
+            return wrong("does not return to the clearance plane of the thread", self);
         }
         self.take(cl_line, found);
         self.next += 1;

@@ -17,8 +17,7 @@ impl<C: Steps> Verifier<'_, C> {
         let first = *self.memory.thread_turns.get_or_insert(now);
         if first != now {
             self.memory.thread_turns = Some(now);
-            let message = "the spindle turns otherwise than in the passes of the thread before, \
-                           which do not meet"
+            let message = "the spindle speed differs from the earlier passes of the thread, so they do not match"
                 .to_string();
             self.find(FindingKind::Speed, Some(cl_line), Some(pass.line), message);
         }
@@ -28,8 +27,7 @@ impl<C: Steps> Verifier<'_, C> {
     /// cycle begins behind a rapid of its own.
     pub(super) fn check_joins(&mut self, cl_line: u32, pass: &Move) {
         if self.facts.has(Fact::InGroove) && !pass.in_cycle && pass.line > self.moved.line + 1 {
-            let message = "blocks stand between two motions of one pass, in which the tool waits \
-                           in its groove while the part turns on"
+            let message = "blocks between two moves of one pass stop the tool in the thread while the part turns"
                 .to_string();
             self.find(FindingKind::Thread, Some(cl_line), Some(pass.line), message);
         }

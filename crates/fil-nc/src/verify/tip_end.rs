@@ -83,7 +83,7 @@ impl<C: Steps> Verifier<'_, C> {
             return;
         }
         let message = format!(
-            "goes up by {} before the length of the tool is taken off, it should be by {}",
+            "retracts by {} before the tool length offset is cancelled, it should be {}",
             short(rise),
             short(way_up)
         );
@@ -107,8 +107,7 @@ impl<C: Steps> Verifier<'_, C> {
         }
         self.facts.set(Fact::Above, true);
         let message =
-            "tool-tip control begins where the length of the tool was on, and the control \
-                       may have come down by it"
+            "TCPC starts with an active tool length offset, and the control may have moved down by it"
                 .to_string();
         self.find(FindingKind::Order, Some(cl_line), Some(found.line), message);
     }
@@ -218,9 +217,9 @@ impl<C: Steps> Verifier<'_, C> {
         }
         self.facts.set(Fact::Up, true);
         let line = self.nc.get(self.next).map(|event| event.line());
-        let message = "tool-tip control has ended where the tool stands, and the control may come \
-                       down by the length of the tool"
-            .to_string();
+        let message =
+            "TCPC ended at the tool position, and the control may move down by the tool length"
+                .to_string();
         self.find(FindingKind::Order, Some(cl_line), line, message);
     }
 }

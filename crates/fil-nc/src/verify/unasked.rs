@@ -81,7 +81,7 @@ impl<C: Steps> Verifier<'_, C> {
     fn find_other_plane(&mut self, cl_line: u32, found: &Move, (plane, line): (usize, u32)) {
         let [name, along] = [["G19", "G18", "G17"], ["X", "Y", "Z"]].map(|of| of[plane]);
         let message = format!(
-            "{name} of line {line} is in force, which no record asks for: the length of the tool acts along {along}"
+            "{name} of line {line} is active without a record for it: the tool length offset acts along {along}"
         );
         self.find(FindingKind::Tool, Some(cl_line), Some(found.line), message);
     }

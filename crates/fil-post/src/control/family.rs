@@ -417,7 +417,7 @@ impl Control {
 /// # Errors
 /// As [`Family::rapid`].
 pub fn rapid(control: &mut Control, motion: &Motion, code: RapidCode, cause: Cause) -> Result<()> {
-    departure::refuse(control, motion, "a rapid motion")?;
+    departure::refuse(control, motion, "a rapid move")?;
     straight_rapid::look(control, motion)?;
     control.family().rapid(control, motion, code, cause)
 }

@@ -127,11 +127,9 @@ pub(super) fn word(control: &mut Control, number: usize, to: f64, scaled: i64) -
     };
     let full = control.tables.axis(number).full_turn();
     match form {
-        RotaryOutput::ShortestWayWithinATurn if 2 * turn.abs() == full => refuse(
-            control,
-            number,
-            "turns by half a turn, and which of the two ways is the shortest is left open",
-        ),
+        RotaryOutput::ShortestWayWithinATurn if 2 * turn.abs() == full => {
+            refuse(control, number, "moves by 180 degrees, and both directions are equally short")
+        }
         RotaryOutput::SignWithinATurn => signed(control, number, scaled, turn < 0),
         _ => Ok(scaled),
     }
@@ -165,7 +163,7 @@ fn turn_on_tape(
         Some(turn) if (turn.abs() - 180.0).abs() < HALF_TURN => {
             Ok(Some(if turn > 0.0 { ahead } else { ahead - full }))
         }
-        _ => refuse(control, number, "turns by half a turn, and which way is not known"),
+        _ => refuse(control, number, "moves by 180 degrees in an unknown direction"),
     }
 }
 
@@ -216,8 +214,7 @@ pub(crate) fn check_feed(control: &Control, from: [f64; 2], to: &Position) -> Re
             return refuse(
                 control,
                 number,
-                "turns at feed from where it is not known to stand, and the control takes one \
-                 way there",
+                "moves at feed from an unknown position, and the control chooses the direction",
             );
         }
         if form == RotaryOutput::PositiveWithinATurn && turn < 0.0 {

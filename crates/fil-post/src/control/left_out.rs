@@ -87,16 +87,14 @@ impl Control {
         let text = |(letter, value): Word| format!("{letter}{value}");
         if let Some(word) = edit.lost().find(|word| !self.may_miss(*word, edit)) {
             let diag = PostCode::EditedWord.diag(format!(
-                "{} is taken out of its block, and what follows would go on as if it stood",
+                "{} is removed from its block, and the post would continue as if it had been output",
                 text(word)
             ));
             self.doubt_edited(word, edit, diag)?;
         }
         if let Some(word) = edit.changed().find(|word| self.counts_on_value(*word, edit)) {
-            let diag = PostCode::EditedWord.diag(format!(
-                "{} stands in a block whose values the post goes on from",
-                text(word)
-            ));
+            let diag = PostCode::EditedWord
+                .diag(format!("{} is in a block whose values the post relies on", text(word)));
             self.doubt(Source::Author, diag, AS_MEANT)?;
         }
         Ok(())
@@ -137,7 +135,7 @@ impl Control {
             let is_replaced = edit.put_in(word.0).next().is_some();
             if self.left_out.contains(&word) && !is_coolant && !is_replaced {
                 let diag = PostCode::EditedWord.diag(format!(
-                    "{}{} is taken out of its block, and again where it is said again",
+                    "{}{} is removed from its block, and again from the block that restates it",
                     word.0, word.1
                 ));
                 self.doubt_edited(word, edit, diag)?;

@@ -80,9 +80,8 @@ pub fn refuse_compensation(control: &Control, plane: Plane) -> Result<()> {
         return Ok(());
     }
     PostCode::CompensationAcross.err_with(
-        "CUTCOM in a plane in which this control counts the length of the tool along another axis",
-        "Leave the plane out, let the CAM system compensate, or say by tool.length_const that the \
-         control counts lengths alike in every plane (SD42940).",
+        "CUTCOM in a plane in which this control applies the tool length offset along another axis",
+        "Leave the plane out, compensate in the CAM system, or set tool.length_const if the control applies lengths the same way in every plane (SD42940).",
     )
 }
 
@@ -99,7 +98,7 @@ pub fn refuse_repeated(control: &Control, operation: &Operation) -> Result<()> {
     };
     if words.iter().any(says_other) {
         return PostCode::Family.err(
-            "REPEAT of a plane in which the control counts the length of the tool along another axis",
+            "REPEAT of a plane in which the control applies the tool length offset along another axis",
         );
     }
     Ok(())

@@ -66,8 +66,7 @@ pub fn go(control: &mut Control, motion: &Motion, before: Before, cause: Cause) 
     let edge = control.sinumerik.edge().filter(|_| has_edges);
     if has_edges && edge.is_none() && before == Before::Others {
         return PostCode::Family.err(
-            "a position of the machine while the cutting edge in force is not known: the D word \
-             that ends the length of the tool could not be taken back",
+            "machine coordinates while the active cutting edge is unknown: the D word that cancels the tool length offset could not be restored",
         );
     }
     for group in groups(control) {
@@ -147,7 +146,7 @@ pub(super) fn by_code(control: &mut Control, ends_edge: bool) -> Result<()> {
     if let Some(function) = reference(control) {
         return to_reference(control, function);
     }
-    let code = control.code(loc::RAPID_CODE_Z, "rapid motion")?;
+    let code = control.code(loc::RAPID_CODE_Z, "rapid move")?;
     control.g(MACHINE);
     control.g(code);
     if ends_edge {

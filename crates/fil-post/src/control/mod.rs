@@ -241,7 +241,7 @@ impl Control {
     fn follow_unit_of_machine(&mut self) -> Result<()> {
         match (self.unit, Unit::of_machine(&self.commons)) {
             (Some(unit), Some(only)) if unit != only => PostCode::Units
-                .err(format!("units.mode says {only} from here on, and the program is in {unit}")),
+                .err(format!("units.mode is {only} from here on, but the program is in {unit}")),
             (None, Some(only)) => {
                 self.unit = Some(only);
                 self.tables.refresh(&self.commons, self.is_metric()).map(|_| ())
@@ -268,7 +268,7 @@ impl Control {
     #[inline]
     pub fn require_unit(&self) -> Result<Unit> {
         self.unit.ok_or_else(|| {
-            PostCode::NoUnit.diag("a word with a number comes before anything says mm or inch")
+            PostCode::NoUnit.diag("a word with a number comes before mm or inch is set")
         })
     }
 
@@ -334,7 +334,7 @@ impl Control {
         match self.tables.addresses.required(letter)? {
             Some(_) => Ok(()),
             None => PostCode::NoCode.err(format!(
-                "{what} needs {letter}, which the machine does not write (tape position 53)"
+                "{what} needs {letter}, which this machine does not output (tape position 53)"
             )),
         }
     }
@@ -342,7 +342,7 @@ impl Control {
     /// Warns of words that the machine does not write.
     #[cold]
     fn warn_off_tape(&mut self, letter: Letter) {
-        let message = format!("{letter} has no tape position (53); its words are not written");
+        let message = format!("{letter} has no tape position (53); its words are not output");
         self.warnings.add(PostCode::IgnoredPart, message);
     }
 

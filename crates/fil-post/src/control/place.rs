@@ -11,7 +11,8 @@ use crate::control_state::{Length, Levels, Meaning, Place};
 use crate::errors::PostCode;
 
 /// Why a motion of a tool has no length.
-const OF_ANOTHER_TOOL: &str = "a text has changed the tool, and nothing calls its length";
+const OF_ANOTHER_TOOL: &str =
+    "a foreign block changed the tool, and nothing activated its length offset";
 
 impl Control {
     /// Where an axis stands.
@@ -90,10 +91,9 @@ impl Control {
             Length::OfAnotherTool => OF_ANOTHER_TOOL,
             _ if is_called => return Ok(()),
             Length::Unsaid | Length::Called => return Ok(()),
-            Length::Taken => "a text has taken the length of the tool off",
+            Length::Taken => "a foreign block cancelled the tool length offset",
             Length::Ended => {
-                "a position of the machine or a tool change has ended the length of the tool, and \
-                 its offset is not known"
+                "machine coordinates or a tool change cancelled the tool length offset, and its number is not known"
             }
         };
         let Some(offset) = self.offset_to_restate(length) else {
@@ -179,8 +179,7 @@ impl Control {
     pub fn cross_forgotten(&mut self, number: usize) {
         let letter = self.tables.axis(number).letter;
         let message = format!(
-            "a script has made the last {letter} EMPTY behind what may have moved it, and a rapid \
-             motion crosses"
+            "a script made the last {letter} EMPTY after a block that may have moved it, and a rapid move in XY follows"
         );
         self.warnings.add(PostCode::ShiftedLevel, message);
     }
@@ -204,7 +203,7 @@ impl Control {
         let letter = self.tables.axis(number).letter;
         let message = format!(
             "{letter} counts from another zero since the tool was brought to its height, and a \
-             rapid motion crosses"
+             rapid move crosses"
         );
         self.warnings.add(PostCode::ShiftedLevel, message);
         Ok(())
@@ -212,7 +211,7 @@ impl Control {
 }
 
 /// What the post takes for granted of an axis in doubt.
-const STANDS_AS_WRITTEN: &str = "taken to be where its last word says";
+const STANDS_AS_WRITTEN: &str = "assumed to be at its last programmed position";
 
 /// Doubts a rapid motion across from a height that an author's block left unknown: the axis is
 /// taken to be where its last word brought it.
@@ -227,8 +226,7 @@ pub fn cross_unknown(control: &mut Control, number: usize) -> Result<()> {
 fn unknown_height(control: &mut Control, number: usize, by: Source) -> Result<()> {
     let letter = control.tables.axis(number).letter;
     let diag = PostCode::UnknownLevel.diag(format!(
-        "where {letter} stands is not known here: up first could be down, and across first could \
-         go through the part"
+        "the position of {letter} is not known here: Z first could plunge, and XY first could go through the part"
     ));
     control.doubt(by, diag, STANDS_AS_WRITTEN)?;
     control.assume_position(number);
@@ -240,13 +238,12 @@ fn unknown_height(control: &mut Control, number: usize, by: Source) -> Result<()
 fn refuse_shifted_way(control: &mut Control, number: usize) -> Result<()> {
     let letter = control.tables.axis(number).letter;
     let diag = PostCode::UnknownLevel.diag(format!(
-        "the tool stands in its cut, {letter} counts from another zero since, and all axes go in \
-         one block: their way may lead through the part"
+        "the tool is in its cut, the work offset of {letter} has changed since, and all axes move in one block: the path may go through the part"
     ));
-    let diag = Box::new(diag.hint(
-        "Go away from the part with RAPID before the change of the work offset, or put GOHOME or \
-         LOADTL behind it.",
-    ));
+    let diag =
+        Box::new(diag.hint(
+            "Retract with RAPID before the new work offset, or put GOHOME or LOADTL after it.",
+        ));
     control.doubt(control.shifted_by(number), diag, "taken to be clear of it")
 }
 
@@ -258,8 +255,7 @@ fn refuse_shifted_way(control: &mut Control, number: usize) -> Result<()> {
 pub fn cross_unknown_way(control: &mut Control, number: usize) -> Result<()> {
     let letter = control.tables.axis(number).letter;
     let diag = PostCode::UnknownLevel.diag(format!(
-        "where {letter} stands is not known here, and all axes go in one block: their way may lead \
-         through the part"
+        "the position of {letter} is not known here, and all axes move in one block: the path may go through the part"
     ));
     control.doubt(control.state.lost_by(letter), diag, STANDS_AS_WRITTEN)?;
     control.assume_position(number);

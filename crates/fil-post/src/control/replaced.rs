@@ -22,7 +22,7 @@ impl Control {
     pub fn end_replacing(&mut self) {
         let ended = std::mem::take(&mut self.tape.replaced);
         for old in ended.unfound() {
-            let message = format!("REPLAC: '{old}' stood in no line");
+            let message = format!("REPLAC: '{old}' was in no line");
             self.warnings.add(PostCode::IgnoredPart, message);
         }
     }

@@ -23,7 +23,7 @@ impl Control {
         self.flush_waiting()?;
         if self.waiting.length_offset.is_some() {
             return PostCode::SkippedPart.err(
-                "the tool length of the last tool change would stand on the other side of OPSKIP",
+                "the tool length offset of the last tool change would be on the other side of OPSKIP",
             );
         }
         if on {
@@ -54,8 +54,7 @@ impl Control {
             return Ok(());
         }
         PostCode::SkippedPart.err(
-            "a tool change: behind OPSKIP tool-tip control would take the length of this tool, \
-             whichever one the skip switch has left in the spindle",
+            "a tool change: after OPSKIP TCPC would use the length of this tool, even if block delete left another one in the spindle",
         )
     }
 }
@@ -96,7 +95,6 @@ impl Control {
 pub fn refuse_level<T>(control: &Control, number: usize) -> Result<T> {
     let letter = control.tables.axis(number).letter;
     PostCode::SkippedLevel.err(format!(
-        "where {letter} stands behind OPSKIP depends on the skip switch, and the motion would be \
-         right from one of the two places only"
+        "the position of {letter} after OPSKIP depends on block delete, and the move would be right from one of the two positions only"
     ))
 }

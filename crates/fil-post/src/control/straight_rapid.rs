@@ -26,14 +26,12 @@ pub(super) fn look(control: &mut Control, motion: &Motion) -> Result<()> {
         return Ok(());
     }
     if goes == RapidStraight::NotSaid {
-        let message = "a rapid block of several axes while a head leans the tool: a control that \
-                       drives each axis at its own speed leaves the straight line";
+        let message = "a rapid of several axes with a tilted head: a control with dog-leg rapids leaves the straight line";
         control.warnings.add(PostCode::RapidMayBend, message.to_string());
         return Ok(());
     }
     PostCode::RapidBends.err(
-        "a rapid block of several axes while a head leans the tool, and the control drives each \
-         at its own speed (rapid.straight = 2)",
+        "a rapid of several axes with a tilted head, and the control moves each at its own speed (rapid.straight = 2)",
     )
 }
 

@@ -41,7 +41,7 @@ pub fn pitch(control: &Control, cycle: &Cycle) -> Result<f64> {
             Ok(feed.asked / control.upm_factor() / turns)
         }
         _ => PostCode::CycleForm.err_with(
-            "a tap at a feed per minute has its pitch from the spindle speed, which is not known",
+            "a tap at feed per minute has its pitch from the spindle speed, which is not known",
             "Put SPINDL / RPM before CYCLE / TAP, or name the pitch: CYCLE / TAP, MMPR, 1.5.",
         ),
     }
@@ -94,7 +94,7 @@ pub fn feed(control: &Control, cycle: &Cycle) -> Result<Feed> {
             Ok(Feed { value: a_minute(control, cycle)?, ..feed })
         }
         Some(_) => PostCode::CycleForm.err_with(
-            "a tap at a feed per minute and at constant surface speed: the pitch would change with \
+            "a tap at feed per minute and at constant surface speed: the pitch would change with \
              the speed",
             "Put SPINDL / RPM before CYCLE / TAP, or name the pitch: CYCLE / TAP, MMPR, 1.5.",
         ),
@@ -178,7 +178,7 @@ fn refuse_above_highest_speed(control: &Control) -> Result<()> {
     }
     PostCode::CycleForm.err_with(
         format!(
-            "a tap at a feed per minute and {speed} rev/min, above the highest speed {limit} of \
+            "a tap at feed per minute and {speed} rev/min, above the highest speed {limit} of \
              MAXRPM: a control that holds the spindle to it would cut another pitch"
         ),
         "Name the pitch (CYCLE / TAP, MMPR, 1.5), or raise SPINDL / MAXRPM.",

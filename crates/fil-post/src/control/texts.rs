@@ -54,7 +54,7 @@ pub fn begins_program(text: &str) -> bool {
 pub fn check(text: &str) -> Result<()> {
     let body = if begins_program(text) { &text[1..] } else { text };
     if body.contains('%') {
-        return PostCode::TextCharacter.err(format!("`%` in `{text}` would end the tape"));
+        return PostCode::TextCharacter.err(format!("`%` in `{text}` would end the program"));
     }
     match text.chars().find(|c| c.is_control()) {
         Some(found) => PostCode::TextCharacter.err(format!(
@@ -123,7 +123,7 @@ pub fn refuse_brackets(text: &str) -> Result<()> {
     }
     let mut diag =
         PostCode::Family.diag(format!("`{text}`: brackets hold no comment on this control"));
-    diag.hint = Some("A comment stands behind a semicolon, `; TEXT`; PPRINT writes one.".into());
+    diag.hint = Some("A comment follows a semicolon, `; TEXT`; PPRINT writes one.".into());
     Err(diag)
 }
 

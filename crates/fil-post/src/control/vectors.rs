@@ -13,7 +13,7 @@ use crate::errors::PostCode;
 use crate::operation::motion::Motion;
 
 /// What helps where a vector can't say the direction.
-pub const SAY_ANGLES: &str = "Say angles with rotary.tip_form = 0.";
+pub const SAY_ANGLES: &str = "Output angles with rotary.tip_form = 0.";
 
 /// Positions nearer to each other than this are the same, degrees.
 const SAME: f64 = 1e-6;
@@ -60,7 +60,7 @@ pub(super) fn axis_words(
     for (letter, part) in IJK.into_iter().zip(direction.iter()) {
         let Some(position) = control.tables.addresses.required(letter)? else {
             return PostCode::TipControl.err_with(
-                format!("{letter} is off the tape, and the direction of the tool needs it"),
+                format!("{letter} is not output, but the tool direction vector needs it"),
                 SAY_ANGLES,
             );
         };
@@ -97,7 +97,7 @@ fn refuse_repeats(control: &Control) -> Result<()> {
     };
     match control.repeat.words.keys().find(|letter| rotary(letter) || IJK.contains(letter)) {
         Some(letter) => PostCode::TipControl.err_with(
-            format!("REPEAT of {letter}: the direction of the tool is said by a vector"),
+            format!("REPEAT of {letter}: the tool direction is output as a vector"),
             SAY_ANGLES,
         ),
         None => Ok(()),
@@ -123,7 +123,7 @@ pub(super) fn turned_by_words(control: &mut Control) -> Result<()> {
     control.tip.leans = None;
     if are_in_force(control) && !control.can().angles_beside_vectors {
         return PostCode::TipControl
-            .err_with("a rotary axis turns by its own word behind G43.5", SAY_ANGLES);
+            .err_with("a rotary axis is programmed by its own word after G43.5", SAY_ANGLES);
     }
     Ok(())
 }

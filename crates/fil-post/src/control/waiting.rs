@@ -113,9 +113,8 @@ impl Control {
             return Ok(());
         }
         PostCode::LengthTaken.err_with(
-            "a text moves Z while the length of the tool waits for the next motion of Z",
-            "Put the text behind the motion that calls the length, let it call the length itself \
-             (G43 H1), or go by RAPID and GOTO.",
+            "a foreign block moves Z while the tool length offset waits for the next Z move",
+            "Put the text after the move that activates the offset, activate it in the text (G43 H1), or move with RAPID and GOTO.",
         )
     }
 

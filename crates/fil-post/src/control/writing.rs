@@ -222,7 +222,7 @@ impl Control {
         // Behind the end of the main program come its subprograms.
         if self.head.started && self.state.groups().written(modal::PROGRAM_END) == 0 {
             let message =
-                format!("`{text}` behind the program number that the post writes ({letter})");
+                format!("`{text}` after the program number that the post writes ({letter})");
             self.warnings.add(PostCode::SecondProgram, message);
         }
     }
@@ -328,7 +328,7 @@ impl Control {
         match changed.or_else(|| self.changed_under_tip_control(&before)) {
             Some(what) => {
                 let diag = PostCode::AuthorChange.diag(what);
-                self.doubt(Source::Author, diag, "the mode is taken to go on as it was")
+                self.doubt(Source::Author, diag, "the mode is assumed to continue")
             }
             None => Ok(()),
         }

@@ -79,7 +79,7 @@ impl Codes {
             has_cycle_end: commons.read(loc::CYCLE_OFF_CODE).is_some(),
             calls_lengths,
             positions_end_lengths: calls_lengths && commons.read(loc::HOME_ENDS_LENGTH),
-            tip_control: commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl,
+            tip_control: commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::Tcpc,
             tool_word_has_offset: by_word
                 && commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress,
             tool_word_changes: by_word || commons.read(loc::TOOL_CHANGE_CODE).is_none(),

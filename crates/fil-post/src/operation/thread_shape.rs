@@ -45,7 +45,7 @@ impl Shape {
     pub fn of(thread: &Thread, least: f64, chamfer: f64) -> Result<Shape> {
         let [start, end] = thread.crest.map(|target| target.point);
         if (end - start).norm() < NOTHING {
-            return PostCode::Thread.err("the crest begins where it ends");
+            return PostCode::Thread.err("the crest starts and ends at the same point");
         }
         if start.y.abs() > NOTHING || end.y.abs() > NOTHING {
             return PostCode::Thread.err("a point of the thread lies outside the plane of X and Z");
@@ -56,7 +56,7 @@ impl Shape {
         let across = if on_face { way.z } else { way.x };
         if across.abs() > along.abs() + NOTHING {
             return PostCode::Thread
-                .err("the crest leans more than 45 degrees from the axis of the thread");
+                .err("the crest is more than 45 degrees off the axis of the thread");
         }
         // Behind the axis of the spindle outside is the way of -X.
         let half = if start.x + end.x < 0.0 { -1.0 } else { 1.0 };
@@ -80,8 +80,7 @@ impl Shape {
         let highest = leaves - depths.first().copied().unwrap_or(0.0);
         if leaves > along.abs() - NOTHING || highest > above_end {
             return PostCode::Thread.err(format!(
-                "a way out of {leaves:.4} at 45 degrees (thread.chamfer) is longer than the thread, \
-                 or goes beyond the level clear of it"
+                "a run-out of {leaves:.4} at 45 degrees (thread.chamfer) is longer than the thread, or goes beyond its clearance plane"
             ));
         }
         Ok(Shape {
@@ -255,7 +254,7 @@ fn check_axis(thread: &Thread, clearance: f64) -> Result<()> {
         ThreadSide::Before | ThreadSide::Behind => crosses,
     };
     if beyond {
-        return PostCode::Thread.err("the thread, or the way back from it, lies beyond the axis");
+        return PostCode::Thread.err("the thread or its return move is beyond the center line");
     }
     Ok(())
 }

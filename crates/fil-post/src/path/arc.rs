@@ -34,8 +34,7 @@ const NEAR_PLANE: f64 = 1e-6;
 /// Angles nearer than this are one, degrees and quarters of a turn.
 const SAME_ANGLE: f64 = 1e-6;
 
-const ELSEWHERE: &str = "the tape does not stand where the arc begins: a cycle, a text, POSTN, REPEAT or FROM has \
-     moved the axes or the point, TRANS the frame, or no motion came before";
+const ELSEWHERE: &str = "the position is not the start of the arc: a cycle, a foreign block, POSTN, REPEAT or FROM moved the axes, TRANS moved the coordinate system, or no move came before";
 
 /// Carries out the arc that ends at `target`.
 ///
@@ -184,11 +183,9 @@ fn refuse_first_under_compensation(post: &Post) -> Result<()> {
         && state.get(modal::CUTTER_COMP).is_none()
         && !state.is(modal::CUTTER_PATH, CutterPath::Moved)
     {
-        let message = "what stands before may have switched cutter compensation on (a program \
-                       that it calls, a code of unknown meaning), and would take it up on an arc";
+        let message = "a block before it may have switched cutter compensation on (a called program, an unknown code), which would start on the arc";
         return Err(Box::new(PostCode::CompensationOnArc.diag(message).hint(
-            "put a straight motion before the CIRCLE, the post says G40 there, or INSERT the \
-             code that switches compensation off",
+            "put a straight move before the CIRCLE, where the post outputs G40, or INSERT the code that cancels compensation",
         )));
     }
     if waits

@@ -44,7 +44,7 @@ pub fn hole(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> R
 /// Any other machine; a spindle that stands or turns at surface speed; a dwell.
 fn tap(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result<()> {
     if spindle::stands(control) || control.spindle.side_turns && !spindle::may_turn(control) {
-        let usual = "a tap while the spindle stands; SPINDL before it turns it";
+        let usual = "a tap while the spindle is stopped; put SPINDL before it";
         return PostCode::CycleForm.err(spindle::why_it_stands(control, usual));
     }
     // A threading move counts the turns of the main spindle, not of a live tool.
@@ -117,9 +117,9 @@ pub(super) fn settle_way_out(control: &mut Control, cycle: &Cycle) -> Result<Way
         Some(73 | 81 | 82 | 83 | 200 | 203 | 205) => Ok(WayOut::Rapid),
         Some(code) if bored => {
             let mut diag = PostCode::CycleForm.diag(format!(
-                "what cycle {code} of the control does at the bottom can't be said in single moves"
+                "what cycle {code} of the control does at the bottom can't be written as single moves"
             ));
-            diag.hint = Some("Say how the tool leaves a bored hole with cycle.bore_out.".into());
+            diag.hint = Some("Set how the tool leaves a bored hole: cycle.bore_out.".into());
             Err(diag)
         }
         Some(_) => Ok(WayOut::Rapid),

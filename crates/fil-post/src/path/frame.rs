@@ -41,7 +41,7 @@ pub(super) fn position_of(
 ) -> Result<(Position, Solution)> {
     let frame = along(post, normalized(axis)?).filter(|frame| is_in_force(&post.control, frame));
     let Some(frame) = frame else {
-        return PostCode::Frame.err("no tilted frame has begun for this tool axis");
+        return PostCode::Frame.err("no tilted work plane has begun for this tool axis");
     };
     let tables = &post.control.tables;
     let linear = tables.chain().linear(point, frame.angles);
@@ -110,8 +110,8 @@ pub(super) fn refuse_turned(control: &Control, stood: [Option<f64>; 2]) -> Resul
     let turned = |n: usize| control.stands(n + 3).is_some() && control.stands(n + 3) != stood[n];
     if is_in_frame && (0..2).any(turned) {
         return PostCode::Frame.err_with(
-            "a text turns a rotary axis in a tilted frame",
-            "Put it behind GOHOME or LOADTL, where no frame is in force.",
+            "a text turns a rotary axis in a tilted work plane",
+            "Put it after GOHOME or LOADTL, where no tilted work plane is active.",
         );
     }
     Ok(())
@@ -187,8 +187,7 @@ pub(super) fn before(control: &mut Control, operation: &Operation) -> Result<()>
                 Meaning::Origin(_) | Meaning::WorkPlane | Meaning::Tcpc | Meaning::Unit(_) => {
                     PostCode::Frame.err_with(
                         "PREFUN: the function would move the frame in force",
-                        "Put it where the tool stands along Z of the machine, or write positions \
-                         of the axes with rotary.frame_output = 0.",
+                        "Put it where the tool is along the machine's Z, or output axis positions with rotary.frame_output = 0.",
                     )
                 }
                 _ => Ok(()),

@@ -36,8 +36,7 @@ pub(super) fn turn_to(post: &mut Post, target: Target, at_feed: bool) -> Result<
     }
     if at_feed && same.is_none() && post.path.frame.is_some() && !post.control.tip.is_away {
         return PostCode::Frame.err_with(
-            "the tool axis changes in a motion at feed, and a tilted frame stands still; \
-             rotary.tip_output = 1 takes it under MULTAX/ON",
+            "the tool axis changes in a feed move, but a tilted work plane does not move; rotary.tip_output = 1 allows it under MULTAX/ON",
             "Set rotary.tip_output = 1 and put MULTAX/ON before it, or write positions of the axes \
              with rotary.frame_output = 0.",
         );
@@ -107,15 +106,13 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<()> {
 fn refuse_at_feed(control: &Control, rests: bool) -> Result<()> {
     if !rests {
         return PostCode::Frame.err_with(
-            "the machine turns, or a text or another work offset may have turned it, before a \
-             motion at feed; RAPID brings the tool there anew",
+            "the machine turns, or a text or another work offset may have turned it, before a feed move; RAPID brings the tool there anew",
             RAPID_FIRST,
         );
     }
     if tip_control::ends_elsewhere(control) {
         return PostCode::Frame.err_with(
-            "tool-tip control ends before a motion at feed, which would begin elsewhere; RAPID \
-             brings the tool there anew",
+            "TCPC ends before a feed move, which would start elsewhere; put RAPID before it",
             RAPID_FIRST,
         );
     }
@@ -155,7 +152,7 @@ fn check_rounded(chain: &AxisChain, turn: Rotation3<f64>, angles: [f64; 2]) -> R
         Ok(found) if near(found) => Ok(()),
         _ => PostCode::Frame.err_with(
             "the tool axis lies at a pole of the machine or at the end of what it reaches, and the \
-             angles of a tilted frame can't name it exactly enough",
+             angles of a tilted work plane can't name it exactly enough",
             "Lay the part otherwise on the machine, or write positions of the axes with \
              rotary.frame_output = 0.",
         ),
@@ -182,14 +179,12 @@ fn away(post: &Post, stands: [f64; 2]) -> Result<Away> {
     }
     if frame::leans(control.tables.chain(), stands) {
         return PostCode::Frame.err(
-            "a head leans the tool, and straight up to home.retract_z would not be along it: \
-             GOHOME or RETRCT must bring it away",
+            "the head is tilted, and straight up to home.retract_z would not be along the tool: put GOHOME or RETRCT before it",
         );
     }
     let Some(level) = control.commons.dbl_opt(loc::HOME_RETRACT_Z) else {
         return PostCode::Frame.err(
-            "the machine would turn beside the part: no tool change, GOHOME or RETRCT came \
-             before, and no level to go up to is known",
+            "the rotary axes would turn next to the part: no tool change, GOHOME or RETRCT came before, and no retract height is known",
         );
     };
     height::refuse_shifted(control, level)?;
@@ -199,8 +194,7 @@ fn away(post: &Post, stands: [f64; 2]) -> Result<Away> {
     if post.path.last.in_cut {
         return PostCode::Frame.err_with(
             "the machine would turn in the cut, which lies above home.retract_z",
-            "Bring the tool out by RAPID and GOTO before the new tool axis, or name a level above \
-             the part.",
+            "Retract with RAPID and GOTO before the new tool axis, or set a retract height above the part.",
         );
     }
     Ok(Away::Stays)

@@ -87,8 +87,7 @@ fn rise_to(post: &mut Post, z: f64) -> Result<()> {
 
 fn unknown<T>() -> Result<T> {
     PostCode::Leaning.err_with(
-        "a head leans the tool in a tilted frame, and where it stands in the machine is not \
-         known: straight up would not be along it",
+        "the head is tilted in a tilted work plane, and its machine position is not known: straight up would not be along the tool",
         OUT_FIRST,
     )
 }

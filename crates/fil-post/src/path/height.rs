@@ -84,8 +84,7 @@ pub(super) fn refuse_shifted(control: &Control, level: f64) -> Result<()> {
 
 fn unknown<T>() -> Result<T> {
     PostCode::Frame.err_with(
-        "up to home.retract_z, and how high the tool stands in the machine is not known: it may \
-         be down",
+        "a retract to home.retract_z from an unknown machine Z: it may go down",
         "Bring the tool out by RAPID and GOTO before it, or put GOHOME or LOADTL there.",
     )
 }

@@ -58,7 +58,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     post.control.require(Act::Hole)?;
     post.control.flush_waiting()?;
     if cycle.kind != CycleKind::Tap && spindle::stands(&post.control) {
-        let message = "CYCLE: the spindle stands".to_string();
+        let message = "CYCLE: the spindle is stopped".to_string();
         post.warn(PostCode::SpindleStands, message);
     }
     if spindle::may_stand_behind_stop(&post.control) {
@@ -128,7 +128,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
 fn refuse_scaled(post: &Post) -> Result<()> {
     match &post.path.transformation {
         Some(trans) if !trans.is_rigid() => PostCode::CycleForm.err_with(
-            "CYCLE under a TRANS that scales: which of its lengths are scaled nobody knows",
+            "CYCLE under a TRANS that scales: it is not known which of its lengths are scaled",
             "Let the CAM system scale the holes, or write them by GOTO.",
         ),
         _ => Ok(()),
@@ -177,7 +177,7 @@ fn refuse_another_lead(control: &Control, cycle: &mut Cycle) -> Result<()> {
                 "the spindle turns at {turns} where the holes before were tapped at {before}: at the \
                  feed of CYCLE/TAP the lead would be another one"
             ),
-            "Give CYCLE/TAP anew behind SPINDL, or its lead by MMPR, IPR or TPI.",
+            "Repeat CYCLE/TAP after SPINDL, or give its lead by MMPR, IPR or TPI.",
         ),
         _ => Ok(()),
     }
@@ -205,7 +205,7 @@ fn refuse_beside_the_axis(control: &Control, at: &Position, hole: &Hole) -> Resu
     let message = format!("a hole {beside:.4} beside the axis of a part that turns");
     let diag = PostCode::CycleForm.diag(message);
     Err(Box::new(diag.hint(
-        "A live tool drills it: MODE/MILL on a mill-turn machine, or a spindle that stands.",
+        "Drill it with a live tool: MODE/MILL on a mill-turn machine, or with the spindle stopped.",
     )))
 }
 
@@ -329,8 +329,7 @@ fn locate(post: &Post, cycle: &Cycle, target: Target) -> Result<(Position, Hole,
     let [along @ 0..=2] = moving[..] else {
         return PostCode::CycleForm.err_with(
             "the hole does not run along a linear axis of the machine",
-            "A control drills it in a tilted frame (rotary.frame_output = 1), and single moves drill \
-             it under tool-tip control (rotary.tip_output = 1).",
+            "Drill it in a tilted work plane (rotary.frame_output = 1), or with single moves under TCPC (rotary.tip_output = 1).",
         );
     };
     let (bottom, clear) = (bottom[along], clear[along]);
@@ -383,16 +382,15 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
     let initial = cycle.initial.or(here);
     let wanted = match (cycle.retract, initial) {
         (Some(0.0), None) => {
-            return PostCode::CycleForm
-                .err("the level before the cycle, to return to, is not known");
+            return PostCode::CycleForm.err("the initial plane to return to is not known");
         }
         (Some(0.0), Some(initial)) if above(initial, hole.clear) > 0.0 => initial,
         (Some(level), _) if level > 0.0 && above(start + level * out, hole.clear) > 0.0 => {
             start + level * out
         }
         (Some(level), _) if level > 0.0 && above(hole.clear, start + level * out) > SAME_LEVEL => {
-            let message = "CYCLE: the level to return to is below the R level; the tool returns \
-                           to the R level";
+            let message =
+                "CYCLE: the return plane is below the R plane; the tool returns to the R plane";
             post.warn(PostCode::IgnoredPart, message.to_string());
             hole.clear
         }
@@ -427,8 +425,7 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
         })?;
     }
     if cycle.retract.is_some_and(|retract| retract > 0.0) && above(level, wanted) > SAME_LEVEL {
-        let message = "CYCLE: the level to return to is below the level before the cycle; the tool \
-                       returns to the level before the cycle";
+        let message = "CYCLE: the return plane is below the initial plane; the tool returns to the initial plane";
         post.warn(PostCode::IgnoredPart, message.to_string());
     }
     // A raise over a high hole is no lower level to return to for the holes behind it.

@@ -22,8 +22,7 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
     let tables = &post.control.tables;
     if tables.tip_output || tables.frame_output {
         return PostCode::WordForm.err(
-            "ROTABL: under tool-tip control and in tilted frames a table turns with the tool axis \
-             of the points only",
+            "ROTABL: under TCPC and in tilted work planes a table turns only with the tool axis of the points",
         );
     }
     post.control.require(Act::Table)?;
@@ -81,8 +80,7 @@ pub(super) fn stay_turned(post: &mut Post, stood: [Option<f64>; AXES]) {
     post.path.rotary = Some(angles);
     post.warn(
         PostCode::AuthorTurns,
-        "a block of an author has turned a table: it stays there, and the points behind it are \
-         written as they are"
+        "a foreign block turned a table: it stays there, and the points after it are output as they are"
             .to_string(),
     );
 }
@@ -119,7 +117,7 @@ fn under_points(post: &Post, angles: [f64; 2], of: Statement) -> Result<Option<T
         rotary.as_ref().is_some_and(|rotary| rotary.carries == Carries::Head) && angle != 0.0
     };
     if chain.rotaries.iter().zip(angles).any(head) {
-        return PostCode::WordForm.err("ROTABL: a head leans the tool");
+        return PostCode::WordForm.err("ROTABL: the head is tilted");
     }
     if angles == [0.0; 2] {
         return Ok(None);

@@ -139,7 +139,7 @@ pub(super) fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Resu
             refuse_feed_a_turn(post.path.feed.map(|feed| feed.mode))?;
             refuse_unknown_c(post)?;
             if spindle::stands(&post.control) {
-                let message = "a motion at feed: the live tool stands".to_string();
+                let message = "a feed move: the live tool is stopped".to_string();
                 post.warn(PostCode::SpindleStands, message);
             }
         }
@@ -199,13 +199,13 @@ fn refuse_unknown_c(post: &Post) -> Result<()> {
         return Ok(());
     }
     PostCode::MillTurn
-        .err("a motion at feed, and where C stands is not known; RAPID turns it there")
+        .err("a feed move while the position of C is not known; position it with RAPID")
 }
 
 fn refuse_feed_a_turn(mode: Option<FeedMode>) -> Result<()> {
     if mode == Some(FeedMode::PerRevolution) {
         return PostCode::MillTurn
-            .err("a feed a turn counts the turns of the main spindle, which is an axis now");
+            .err("feed per revolution needs the main spindle, which is a C axis now");
     }
     Ok(())
 }
@@ -223,8 +223,8 @@ pub(super) fn turning_feed(
     let (_, axis) = position::transformed(post, target);
     if lie(axis)? == Lie::Axial {
         return PostCode::Polar.err(
-            "C would turn in a motion at feed of a tool along Z; polar interpolation \
-             (mill_turn.polar_code) begins at a rapid motion",
+            "C would turn in a feed move of a tool along Z; polar interpolation \
+             (mill_turn.polar_code) begins at a rapid move",
         );
     }
     cylinder::feed(post, from, to, target)
@@ -364,8 +364,7 @@ fn refuse_axes_of_others(control: &Control, operation: &Operation) -> Result<()>
     };
     match found {
         true => PostCode::MillTurn.err(
-            "axis words of others in polar interpolation or TRACYL, where X and its second axis \
-             are a plane of lengths or a cylinder; RAPID behind another tool axis ends it",
+            "foreign axis words in polar interpolation or TRACYL, where X and its second axis are a plane or a cylinder; RAPID with another tool axis ends it",
         ),
         false => Ok(()),
     }
@@ -388,7 +387,7 @@ pub(super) fn before_arc(post: &mut Post, arc: &Arc, target: Target) -> Result<(
         (false, true) => polar::end(post),
         (true, false) if !has_y(&post.control) => PostCode::Polar.err(
             "an arc by a tool along Z; polar interpolation (mill_turn.polar_code) begins at a \
-             rapid motion",
+             rapid move",
         ),
         _ => Ok(()),
     }

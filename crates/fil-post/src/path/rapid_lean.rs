@@ -89,10 +89,8 @@ pub(super) fn turned(control: &Control) -> Option<[f64; 2]> {
 pub(super) fn way_along(control: &Control, angles: [f64; 2], rise: f64) -> Result<f64> {
     let share = control.tables.chain().tool_at(angles).z;
     if share < LEAST_RISE {
-        return PostCode::Leaning.err_with(
-            "a motion up along Z to a position of the machine, and the tool lies across it",
-            ONLY_Z,
-        );
+        return PostCode::Leaning
+            .err_with("a Z retract to machine coordinates, while the tool lies across Z", ONLY_Z);
     }
     Ok(rise / share)
 }
@@ -103,7 +101,7 @@ pub(super) fn warn_straight_up(control: &mut Control) {
     let chain = control.tables.chain();
     let leans = |at: [f64; 2]| chain.tool_at(at).z < 1.0 - PARALLEL;
     if chain.has_heads() && turned(control).is_some_and(leans) {
-        let message = "Z goes straight up in the frame of the machine, and a head leans the tool";
+        let message = "Z moves straight up in machine coordinates while the head is tilted";
         control.warnings.add(PostCode::StraightUp, message.to_string());
     }
 }

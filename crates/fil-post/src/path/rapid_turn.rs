@@ -70,7 +70,7 @@ pub(super) fn warn_of_sweep(control: &mut Control, from: &Position, ends: &[Posi
         warn(
             control,
             format!(
-                "a rapid motion out of a cut that turns the machine brings the tip up to \
+                "a rapid move out of a cut that turns the machine brings the tip up to \
                  {farthest:.3} from its line"
             ),
         );
@@ -154,7 +154,7 @@ fn look(control: &mut Control, from: &Position, ends: &[Position], along: Along)
         warn(
             control,
             format!(
-                "a rapid motion that turns the machine brings the tip up to {deepest:.3} below its \
+                "a rapid move that turns the machine brings the tip up to {deepest:.3} below its \
                  line"
             ),
         );

@@ -99,8 +99,7 @@ pub(super) fn feed(
     let limit = share_to_limit(post.control.tables.chain(), before, free);
     let Some(change) = find(post, &way, limit, end_axis) else {
         return PostCode::NoAlternative.err(format!(
-            "the rotary axes would turn from {} to {} degrees in a feed motion, past a limit, \
-             and from no other positions for the same tool axis can they go on",
+            "the rotary axes would turn from {} to {} degrees in a feed move, past a limit, and no other solution for the same tool axis lets them continue",
             spelled(before),
             spelled(free)
         ));
@@ -143,7 +142,7 @@ fn start(post: &Post, before: [f64; 2]) -> Result<Point3<f64>> {
     let known = !post.path.long_arc.in_chords && linearization::is_where_the_path_is(post, before);
     post.path.point.filter(|_| known).ok_or_else(|| {
         PostCode::NoAlternative
-            .diag("a limit of an axis lies on an arc, or where the tool stands is not known")
+            .diag("an axis limit is on an arc, or the tool position is not known")
     })
 }
 
@@ -292,14 +291,12 @@ impl Plan {
         let shorter = |own: f64, least: Option<f64>| least.filter(|least| own < *least);
         if let Some(least) = shorter(retract, least.retract) {
             return PostCode::NoAlternative.err(format!(
-                "_REPOS would have the tool retract by {retract}, and repos.retract_distance is \
-                 {least}: nearer to the part nothing says that it is clear"
+                "_REPOS retracts by {retract}, less than repos.retract_distance = {least}: the tool may not be clear of the part"
             ));
         }
         if let Some(least) = shorter(approach, least.approach.map(|least| least.min(retract))) {
             return PostCode::NoAlternative.err(format!(
-                "_REPOS would have the tool come back at feed from {approach}, and \
-                 repos.approach_distance is {least}"
+                "_REPOS returns at feed from {approach}, less than repos.approach_distance = {least}"
             ));
         }
         Ok(Plan {
@@ -419,9 +416,8 @@ pub(super) fn stop_around(post: &mut Post, plan: &Plan) -> Result<Restart> {
     let starts = |at| plan.by_macro || control.commons.read(at);
     let stands = plan.ways.spindle_stands;
     if stands && !starts(loc::REPOS_APPROACH_SPINDLE) {
-        return PostCode::NoAlternative.err(
-            "repos.retract_spindle stops the spindle, and nothing starts it for the way back",
-        );
+        return PostCode::NoAlternative
+            .err("repos.retract_spindle stops the spindle, and nothing starts it for the return");
     }
     let (ends, flows_again) = (plan.ways.coolant_off, starts(loc::REPOS_APPROACH_COOLANT));
     let (optional, always) = (plan.ways.optional_stop, plan.ways.stop);

@@ -38,7 +38,7 @@ pub(super) fn carry_out(
     let Some(nearest) = nearest.filter(|nearest| apart(*nearest, now)) else { return Ok(false) };
     if post.control.commons.read(loc::REPOS_RAPID_WARNING) {
         let message = format!(
-            "the rotary axes go to {} and not to {}, which is nearer",
+            "the rotary axes go to {} instead of the nearer {}",
             spelled(now),
             spelled(nearest)
         );
@@ -67,8 +67,7 @@ fn by_macro(post: &Post) -> Result<Option<bool>> {
         ReposRapidMethod::RetractAndApproach => Ok(Some(false)),
         ReposRapidMethod::CallTheMacroRepos if reposition::has_macro(post) => Ok(Some(true)),
         ReposRapidMethod::CallTheMacroRepos => PostCode::NoAlternative.err(
-            "repos.rapid_retract asks for a way out and back in a rapid motion, and the script \
-             has no macro _REPOS",
+            "repos.rapid_retract retracts in a rapid move, but the script has no macro _REPOS",
         ),
         ReposRapidMethod::Nothing => Ok(None),
     }

@@ -142,14 +142,14 @@ pub(super) fn refuse_unknown_start(post: &mut Post) -> Result<()> {
         let letter = control.tables.axis(number).letter;
         match control.place(number) {
             Place::Unknown => {
-                let message = format!("where {letter} stands is not known here");
+                let message = format!("the position of {letter} is not known here");
                 let by = control.state.lost_by(letter);
-                let assumed = "taken to be where its last word says";
+                let assumed = "assumed to be at its last programmed position";
                 control.doubt(by, PostCode::UnknownTurn.diag(message), assumed)?;
                 control.assume_position(number);
             }
             Place::Clear => {
-                let message = format!("{letter} stands at a position of the machine");
+                let message = format!("{letter} is at a machine coordinate");
                 let assumed = "taken to be where the motion begins";
                 control.doubt(Source::Post, PostCode::UnknownTurn.diag(message), assumed)?;
             }
@@ -208,8 +208,7 @@ pub(super) fn warn_if_lost(post: &mut Post) -> Result<bool> {
     let lost = post.path.last.since == Since::ToolChange
         || tables.written().numbers().any(|number| post.control.stands(number).is_none());
     if lost {
-        let message =
-            "a motion at feed that turns the machine from an unknown place is not divided";
+        let message = "a feed move that turns the machine from an unknown place is not divided";
         post.warn(PostCode::Undivided, message.to_string());
     }
     Ok(lost)

@@ -15,5 +15,5 @@ pub fn refuse(control: &Control, along: &[usize], code: PostCode) -> Result<()> 
     let Some(axis) = axes.into_iter().find(|axis| !axis.keeps_lengths()) else { return Ok(()) };
     let (letter, scale) = (axis.letter, axis.scale());
     let diag = code.diag(format!("a lead along {letter}, whose output is scaled by {scale}"));
-    Err(Box::new(diag.hint("The lead is that of a turn of the spindle, which is not scaled.")))
+    Err(Box::new(diag.hint("The lead is per revolution of the spindle, which is not scaled.")))
 }

@@ -195,8 +195,7 @@ impl Course {
         }
         if (arc.begin, end) == (Some(Meeting::Back), Meeting::Back) && arc.extent != Extent::Short {
             return PostCode::ArcSense.err(format!(
-                "the CIRCLE of line {} runs back from the motion before it and into the one after \
-                 it; the other sense would be smooth",
+                "the CIRCLE of line {} reverses against the moves before and after it; the other direction would be smooth",
                 arc.line
             ));
         }
@@ -252,8 +251,7 @@ impl Course {
                 lines.first_contradicted
             )),
             () if contradicted > proved => Verdict::Contradicted(format!(
-                "{contradicted} of the arcs, the first one the CIRCLE of line {}, run back and would \
-                 run on in the other sense, and {proved} run on",
+                "{contradicted} of the arcs, first the CIRCLE of line {}, reverse and would be smooth in the other direction, and {proved} are smooth",
                 lines.first_contradicted
             )),
             () if cusps > smooth.max(proved) => Verdict::Contradicted(format!(
@@ -268,17 +266,15 @@ impl Course {
                 lines.first_long
             )),
             () if contradicted > 0 => Verdict::Unproved(format!(
-                "the CIRCLE of line {} runs back, and would run on in the other sense",
+                "the CIRCLE of line {} reverses, and would be smooth in the other direction",
                 lines.first_contradicted
             )),
             () if proved == 0 && long > short => Verdict::Unproved(format!(
-                "the CIRCLE of line {} takes the longer way round, and no arc of the file proves the \
-                 sense",
+                "the CIRCLE of line {} is the longer arc, and no arc of the file proves the direction",
                 lines.first_long
             )),
             () if proved == 0 && plunges > 0 => Verdict::Open(format!(
-                "the CIRCLE of line {} turns back from a motion along the tool axis, and no arc of \
-                 the file proves the sense",
+                "the CIRCLE of line {} reverses a move along the tool axis, and no arc of the file proves the direction",
                 lines.first_plunge
             )),
             () => Verdict::Fits,

@@ -51,8 +51,7 @@ pub fn is_taken(post: &mut Post, before: BeforeSection, tool: i64, offset: i64) 
     let present = control.tables.present();
     if present.numbers().any(|number| control.place(number) == Place::Unknown) {
         let diag = PostCode::UnknownLevel.diag(
-            "a section changes the tool by blocks that the post can't read, and where they leave \
-             the axes is not known",
+            "a section changes the tool with blocks that the post can't read, so the position of the axes is not known",
         );
         control.mild_doubt(diag, "taken to be the change position")?;
     }

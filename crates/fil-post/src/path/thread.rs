@@ -50,15 +50,14 @@ pub fn counted_change(post: &Post, lead: Lead, counted: &Lead, target: Target) -
     };
     if post.control.state.goes_on_in_varying_lead(&post.control.commons) {
         return PostCode::Thread.err(
-            "a thread of varying lead goes on behind its first motion, and with which lead is \
-             not known",
+            "a thread with variable lead continues after its first move, and the lead there is not known",
         );
     }
     // In n turns the tool goes n leads and n(n - 1)/2 changes: the square of the lead changes
     // by twice the change times the way.
     let way = (target.point - from).amax();
     if lead.value * lead.value + 2.0 * change * way <= 0.0 {
-        return PostCode::Thread.err("the lead comes to nothing before the end of the thread");
+        return PostCode::Thread.err("the lead reaches zero before the end of the thread");
     }
     Ok(change * (counted.value / lead.value))
 }
@@ -91,12 +90,12 @@ pub fn check_speed(post: &Post) -> Result<()> {
         return PostCode::Thread.err(counted::WHICH);
     }
     if !spindle::may_turn(&post.control) {
-        let usual = "the spindle stands; SPINDL before the thread turns it";
+        let usual = "the spindle is stopped; put SPINDL before the thread";
         return PostCode::Thread.err(spindle::why_it_stands(&post.control, usual));
     }
     if spindle::may_stand_behind_change(&post.control) {
         return PostCode::Thread
-            .err("the tool change may have stopped the spindle; SPINDL behind it turns it again");
+            .err("the tool change may have stopped the spindle; put SPINDL after it");
     }
     if spindle::is_of_surface(&post.control) {
         return PostCode::Thread

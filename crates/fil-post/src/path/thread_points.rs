@@ -59,9 +59,8 @@ fn refuse_blocks_between(post: &Post) -> Result<()> {
         return Ok(());
     }
     PostCode::Thread.err_with(
-        "blocks stand between two motions of one pass, in which the tool would wait in its groove",
-        "Put what stands between (STOP, COOLNT, SPINDL, DELAY, a text) before the pass or behind \
-         it, or retract with RAPID before the next pass.",
+        "blocks between two moves of one pass would stop the tool in the thread",
+        "Put these blocks (STOP, COOLNT, SPINDL, DELAY, a text) before or after the pass, or retract with RAPID before the next pass.",
     )
 }
 
@@ -77,8 +76,7 @@ fn side_of(awaited: &Awaited, start: Target, of_side: bool) -> Result<ThreadSide
         (true, _, Some(by)) if by > thread::NOTHING => Ok(ThreadSide::Before),
         (true, _, Some(by)) if by < -thread::NOTHING && of_side => Ok(ThreadSide::Behind),
         _ => PostCode::Thread.err(
-            "the tool stands neither outside nor inside of the crest before OP/THREAD, nor before \
-             its face",
+            "before OP/THREAD the tool is neither outside nor inside the crest, nor in front of its face",
         ),
     }
 }

@@ -29,12 +29,10 @@ use crate::operation::{Operation, Target};
 use crate::post::Post;
 
 /// What helps where something can't be done under it.
-pub(super) const OUTSIDE: &str = "With rotary.frame_output = 1 motions outside of MULTAX/ON are \
-    written without tool-tip control; with rotary.tip_output = 0 all are.";
+pub(super) const OUTSIDE: &str = "With rotary.frame_output = 1 moves outside MULTAX/ON are output without TCPC; with rotary.tip_output = 0 all moves are.";
 
 /// What helps where the tool can't go up before its length is taken off.
-const WHERE_IT_STANDS: &str = "Put a GOTO behind the text or the words that move the tool, or set \
-    rotary.tip_end_retract = 0 for a control that does not move at G49.";
+const WHERE_IT_STANDS: &str = "Put a GOTO after the text or the words that move the tool, or set rotary.tip_end_retract = 0 for a control that does not move at G49.";
 
 /// Begins tool-tip control before a motion, where it is not on: where the tables stand then is
 /// where the motion turns them from.
@@ -123,7 +121,7 @@ fn begin(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<()> 
     let of_tool = control.tip.offset;
     if of_tool.is_none() && control.can().length_functions {
         return PostCode::TipControl
-            .err("tool-tip control takes up the length of a tool, and no LOADTL came before");
+            .err("TCPC activates a tool length offset, and no LOADTL came before");
     }
     control.flush_function(Function::WorkOffset)?;
     if comes_down && !is_up {
@@ -225,7 +223,7 @@ fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
         if !rotary.goes(stands[index], 0.0) {
             let letter = rotary.letter;
             return PostCode::TipControl.err_with(
-                format!("tool-tip control begins with {letter} at 0, and its travel ends before"),
+                format!("TCPC starts with {letter} at 0, which is outside its travel"),
                 "A control that takes the part as it lies needs no zero: rotary.tip_control = 1.",
             );
         }
@@ -238,8 +236,7 @@ fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
     }
     if !tables.is_empty() && !control.tip.is_away {
         return PostCode::TipControl.err_with(
-            "tool-tip control would begin anew with its tables at 0, and they would turn beside \
-             the part; a tool change must come before",
+            "TCPC would restart with its tables at 0, and they would turn next to the part; put a tool change before it",
             "Put LOADTL before it; a control that takes the part as it lies needs no zero: \
              rotary.tip_control = 1.",
         );
@@ -309,8 +306,7 @@ fn go_up(control: &mut Control) -> Result<bool> {
     let Some(distance) = way_up(control)? else { return Ok(false) };
     let Some((tip, angles)) = pose(control) else {
         return PostCode::TipControl.err_with(
-            "tool-tip control ends, and where the tool stands is not known: it can't go up \
-             before (rotary.tip_end_retract)",
+            "TCPC ends at an unknown tool position: the tool can't retract before it (rotary.tip_end_retract)",
             WHERE_IT_STANDS,
         );
     };
@@ -347,8 +343,7 @@ fn go_up_with_length(control: &mut Control) -> Result<()> {
     }
     let Some(z) = control.stands(2) else {
         return PostCode::TipControl.err_with(
-            "the length of the tool is taken off before tool-tip control begins, and where Z \
-             stands is not known: it can't go up before (rotary.tip_end_retract)",
+            "the tool length offset is cancelled before TCPC starts, at an unknown Z: the tool can't retract before it (rotary.tip_end_retract)",
             WHERE_IT_STANDS,
         );
     };
@@ -364,8 +359,7 @@ fn go_up_with_length(control: &mut Control) -> Result<()> {
 fn check_way_up(control: &Control, to: &Position, axes: AxisSet) -> Result<()> {
     control.tables.check_travel(to, axes).map_err(|diag| {
         Box::new(diag.hint(
-            "The tool goes up by rotary.tip_end_retract before tool-tip control ends; set it \
-             lower, or 0 for a control that does not move at G49.",
+            "The tool retracts by rotary.tip_end_retract before TCPC ends; reduce it, or set 0 for a control that does not move at G49.",
         ))
     })
 }

@@ -42,16 +42,14 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     refuse_turned_level(cycle, above, axis)?;
     if above.is_some() && post.path.last.since == Since::Frame {
         return PostCode::TipControl.err_with(
-            "a hole right behind TRANS, ORIGIN, TRACUT, ROTABL, FROM or a text that moves the tool: \
-             a GOTO between them must say where it stands",
+            "a hole right after TRANS, ORIGIN, TRACUT, ROTABL, FROM or a foreign block that moves the tool: put a GOTO between them",
             "Put a GOTO above the hole between them.",
         );
     }
     let rest = match (cycle.retract, above) {
         (None, _) => cycle.clear,
         (Some(0.0), None) => {
-            return PostCode::CycleForm
-                .err("the level before the cycle, to return to, is not known");
+            return PostCode::CycleForm.err("the initial plane to return to is not known");
         }
         (Some(0.0), Some(above)) => height(above.before).max(cycle.clear),
         (Some(level), _) => level.max(cycle.clear),
@@ -81,8 +79,7 @@ pub(super) fn retract(post: &mut Post, above: &mut AboveHoles) -> Result<()> {
     let axis = post.path.axis.stands.normalize();
     if above.axis.dot(&axis) < SAME_DIRECTION {
         return PostCode::TipControl.err_with(
-            "cycle.retract_block goes back to the level before the cycle, and the tool has turned \
-             since",
+            "cycle.retract_block returns to the initial plane, but the tool axis has changed since",
             EACH_ITS_LEVEL,
         );
     }
@@ -104,15 +101,14 @@ fn refuse_turned_level(cycle: &Cycle, above: Option<AboveHoles>, axis: Vector3<f
         return Ok(());
     }
     PostCode::TipControl.err_with(
-        "RETURN,0 goes back to the level before the cycle, and the tool has turned since: a level \
-         over each hole (RETURN with a number, or RAPTO) says how far it comes out",
+        "RETURN,0 returns to the initial plane, but the tool axis has changed since: give a height over each hole (RETURN with a number, or RAPTO)",
         EACH_ITS_LEVEL,
     )
 }
 
 fn cant_go_up() -> Result<()> {
     PostCode::TipControl.err_with(
-        "the tool turns far to the next hole of a cycle, whose level lies above where it stands",
+        "the tool axis changes a lot before the next hole of a cycle, whose plane is above the tool",
         "Put CYCLE/OFF and a GOTO above the next hole, along its axis, before it.",
     )
 }

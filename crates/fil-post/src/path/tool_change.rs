@@ -34,8 +34,7 @@ fn refuse_change_by_switch(control: &Control, tool: i64) -> Result<()> {
         control.state.tools_by_block_delete().is_some_and(|tools| tools.contains(&Some(tool)));
     match may_be_in && matches!(control.place(2), Place::Between(_)) {
         true => PostCode::SkippedPart.err(format!(
-            "tool {tool} is in the spindle or is not, by the skip switch, and so the tool stands where \
-             the skipped blocks have left it or at the change position"
+            "block delete decides if tool {tool} is in the spindle, so the tool is at the end of the skipped blocks or at the change position"
         )),
         false => Ok(()),
     }

@@ -43,10 +43,8 @@ fn settle_turned(post: &mut Post, angles: [f64; 2]) -> Result<()> {
         && settle_tool(&mut post.path.turning.turned_with.tool, control.state.get(modal::TOOL))
     {
         return PostCode::TurnedApart.err_with(
-            "the head leans with a second tool, and rotary.pivot_distance is that to the tip of \
-             the first",
-            "Post with tool-tip control or in tilted frames, or one program for each tool; \
-             tool.ignore_length = 1 says that all tools are equally long.",
+            "the head tilts a second tool, but rotary.pivot_distance is for the first",
+            "Post with TCPC or tilted work planes, or make one program for each tool; set tool.ignore_length = 1 if all tools have the same length.",
         );
     }
     if by_head && !post.path.turning.turned_with.lies_across {
@@ -59,9 +57,8 @@ fn settle_turned(post: &mut Post, angles: [f64; 2]) -> Result<()> {
         let with = &mut post.path.turning.turned_with;
         if with.zero.is_some() && zero.is_some() && with.zero != zero {
             return PostCode::TurnedApart.err_with(
-                "a table stands turned under a second work offset, and the settings say where its \
-                 axis lies from the first",
-                "Post with tool-tip control or in tilted frames, or one program for each zero.",
+                "a table is rotated under a second work offset, but the settings give its axis from the first",
+                "Post with TCPC or tilted work planes, or make one program for each work offset.",
             );
         }
         with.zero = zero.or(with.zero);
@@ -88,10 +85,8 @@ pub(super) fn settle_level(post: &mut Post) -> Result<()> {
         control.state.get(modal::TOOL),
     ) {
         return PostCode::TurnedApart.err_with(
-            "a level of the machine's Z while the head leans a second tool: how far up along the \
-             tool it lies is counted with rotary.pivot_distance, that to the tip of the first",
-            "Turn the tool upright before it by RAPID and GOTO, or set home.frame = 1; \
-             tool.ignore_length = 1 says that all tools are equally long.",
+            "a retract in machine Z while the head tilts a second tool: its length along the tool depends on rotary.pivot_distance, which is for the first",
+            "Turn the tool upright before it with RAPID and GOTO, or set home.frame = 1; set tool.ignore_length = 1 if all tools have the same length.",
         );
     }
     Ok(())
@@ -139,7 +134,7 @@ fn counts_length(control: &Control) -> bool {
 
 /// Warns of a length that the control counts across the tool.
 fn say_length_lies_across(control: &mut Control) {
-    let message = "the control counts the length of the tool along Z, which the tool lies across";
+    let message = "the control applies the tool length offset along Z, but the tool lies across it";
     control.warnings.add(PostCode::LengthAcross, message.to_string());
 }
 

@@ -96,8 +96,7 @@ fn refuse_indexing_from_anywhere(control: &Control) -> Result<()> {
         return Ok(());
     }
     let letter = control.tables.axis(3).letter;
-    PostCode::Indexing
-        .err(format!("{letter} would turn at feed from where it stands, which is not known"))
+    PostCode::Indexing.err(format!("{letter} would move at feed from an unknown position"))
 }
 
 /// Moves at feed where no limit lies on the way.
@@ -155,16 +154,13 @@ fn refuse_pole(post: &Post, from: [f64; 2], to: [f64; 2]) -> Result<()> {
         return Ok(());
     }
     let mut diag = PostCode::Pole.diag(format!(
-        "the rotary axes turn from {} to {} degrees in a motion at feed, and the tool leans \
-         {off:.3} degrees out of the plane of its ends on the way",
+        "the rotary axes turn from {} to {} degrees in a feed move, and the tool tilts {off:.3} degrees out of the plane of its end positions",
         spelled(from),
         spelled(to)
     ));
     if chain.is_pole(chain.axis_at(from)) && !post.control.commons.read(loc::REPOS_OPTIMISE) {
         diag.hint = Some(
-            "The tool stands along the pole where the motion begins: where it does so since the last \
-             RAPID, repos.optimise = 1 turns the free axis there. Else RAPID before the tilt, or a \
-             tool axis a little off the pole from the start."
+            "The tool is along the pole at the start of the move: if it has been so since the last RAPID, repos.optimise = 1 positions the free axis there. Otherwise put RAPID before the tilt, or start with a tool axis slightly off the pole."
                 .into(),
         );
     }

@@ -74,7 +74,7 @@ impl<'a> TurningFeed<'a> {
         }
         let parts = (way * least / self.rate).ceil().max(1.0);
         if parts > f64::from(u16::MAX) {
-            return PostCode::TooManyParts.err("inverse time can't say so slow a feed");
+            return PostCode::TooManyParts.err("inverse time can't express such a slow feed");
         }
         Ok(parts as u32)
     }

@@ -89,7 +89,7 @@ fn refuse_through_the_wall(shape: &Shape, from: Point3<f64>) -> Result<()> {
         return Ok(());
     }
     PostCode::Thread.err_with(
-        "the tool stands on the other side of the thread's wall, and would go through the part",
+        "the tool is on the other side of the thread's wall, and would go through the part",
         "Bring the tool before the part with RAPID and GOTO first.",
     )
 }

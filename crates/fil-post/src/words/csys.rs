@@ -98,7 +98,7 @@ pub(crate) fn settle_axis(post: &mut Post, record: &Record) -> Result<()> {
     settle(post, post.path.axis.given)?;
     if post.path.axis.in_doubt {
         return PostCode::OtherFrame.err_with(
-            "a point without a tool axis, behind a frame that has turned under a leaning one",
+            "a point without a tool axis, after a coordinate system that was rotated under a tilted tool",
             "Give the tool axis with the first point in the frame (GOTO/x,y,z,i,j,k), or by TLAXIS.",
         );
     }
@@ -137,8 +137,8 @@ fn settle_new(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
 pub(crate) fn refuse_read_again(post: &Post) -> Result<()> {
     let since = post.path.named_frames.since;
     PostCode::OtherFrame.err_with(
-        format!("a motion is read again, behind a frame that was named after it (record {since})"),
-        "Go back only to records behind the last frame.",
+        format!("a move is read again, after a coordinate system that was named after it (record {since})"),
+        "Go back only to records after the last coordinate system.",
     )
 }
 
@@ -186,7 +186,7 @@ fn another(named: &Named) -> Box<Diag> {
     let (word, line) = (&named.word, named.line);
     let message = match named.is_late() {
         true => format!(
-            "{word} of line {line} names a frame, and motions came before it, whose frame is not known"
+            "{word} of line {line} names a coordinate system, but the moves before it have an unknown one"
         ),
         false => format!(
             "{word} of line {line} names another frame than the first one, and the points may be \

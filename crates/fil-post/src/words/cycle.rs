@@ -175,7 +175,7 @@ fn return_level(items: &mut Items) -> Result<Option<f64>> {
     }
     match level {
         Some(level) if off || level != 0.0 => {
-            PostCode::CycleForm.err(format!("PULBAC beside the return level {level}"))
+            PostCode::CycleForm.err(format!("PULBAC with the return plane {level}"))
         }
         _ if off => Ok(None),
         _ => Ok(Some(0.0)),
@@ -206,15 +206,14 @@ fn clearance(post: &mut Post, items: &mut Items, at: &mut u16) -> Result<Levels>
         (Some(rapto), Some(clear)) if !from_clear && rapto < clear => {
             return PostCode::CycleForm.err_with(
                 format!(
-                    "RAPTO {rapto} is the R level, and the tool would pass between the holes below \
-                     CLEAR {clear}"
+                    "RAPTO {rapto} is the R plane, and the tool would move between the holes below CLEAR {clear}"
                 ),
                 "Give a RAPTO above CLEAR, or set cycle.rapto = 0, by which it counts down from \
                  CLEAR.",
             );
         }
         (Some(rapto), Some(clear)) if !from_clear && rapto > clear => {
-            let message = format!("CYCLE: CLEAR {clear}; RAPTO {rapto} is the R level");
+            let message = format!("CYCLE: CLEAR {clear}; RAPTO {rapto} is the R plane");
             post.warn(PostCode::IgnoredPart, message);
         }
         (None, Some(_)) => *at = items.last_word(),
@@ -238,11 +237,9 @@ fn below_clear(post: &mut Post, rapto: f64, clear: f64) -> Result<Levels> {
     if level < 0.0 || rapto < 0.0 {
         return PostCode::CycleForm.err_with(
             format!(
-                "RAPTO {rapto} counts from CLEAR {clear} toward the hole: the rapid would end at \
-                 {level} above its start"
+                "RAPTO {rapto} is measured from CLEAR {clear} toward the hole: the rapid would end {level} above its start"
             ),
-            "Give a RAPTO of 0 to CLEAR, or set cycle.rapto = 1, by which it is the R level above \
-             the hole.",
+            "Give a RAPTO from 0 to CLEAR, or set cycle.rapto = 1 if it is the R plane above the hole.",
         );
     }
     let message = "CYCLE: RAPTO counts from CLEAR toward the hole, and the rapid ends at the \

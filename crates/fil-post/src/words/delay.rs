@@ -26,7 +26,9 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     post.due_to(items);
     items.deny_rest()?;
     if revolutions.is_some() && !spindle::may_turn(&post.control) {
-        return Err(items.error("the spindle stands, and never makes these turns; SPINDL turns it"));
+        return Err(items.error(
+            "the spindle is stopped, and never makes these revolutions; put SPINDL before it",
+        ));
     }
     if amount < 0.0 {
         return Err(items.error(format!("a dwell of {amount} is negative")));

@@ -27,14 +27,12 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     csys::settle(post, post.path.axis.given)?;
     if post.path.last.is_left {
         return PostCode::ArcStart.err(
-            "GODLTA right behind TRANS, a new frame or a text that moves the tool: it does not \
-             stand at the last point",
+            "GODLTA right after TRANS, a new coordinate system or a foreign block that moves the tool: it is not at the last point",
         );
     }
     if post.path.last.taken_behind == Some(start) {
         return PostCode::ArcStart.err(
-            "GODLTA behind a motion that a section has taken: it counts from a point that the \
-             post has not seen",
+            "GODLTA after a move that a section took: it is measured from a point that the post has not seen",
         );
     }
     post.require(Act::OtherPoints)?;

@@ -64,9 +64,8 @@ fn rapid_between_holes(post: &mut Post, target: Target, clear: f64) -> Result<()
     let is_below = post.path.point.is_some_and(|from| above(from) < least - SAME_LEVEL);
     if is_below && post.path.last.since != Since::ToolChange {
         return PostCode::CycleForm.err_with(
-            "RAPID in a cycle leads below the level over the holes: a way to a hole, or a hole",
-            "Leave RAPID out where the point is a hole, the cycle goes there at rapid; end the cycle \
-             by CYCLE / OFF before it where it is none.",
+            "RAPID in a cycle goes below the plane over the holes: a move to a hole, or a hole",
+            "Remove RAPID if the point is a hole, which the cycle approaches at rapid; if it is not, put CYCLE / OFF before it.",
         );
     }
     let message = "RAPID in a cycle: the tool goes there at rapid, and no hole is drilled";
@@ -128,7 +127,7 @@ fn warn_where_it_mills(post: &mut Post) {
     }
     let tool =
         control.state.get(modal::TOOL).map(|tool| format!(" of tool {tool}")).unwrap_or_default();
-    post.warn(PostCode::SpindleStands, format!("a motion at feed{tool}: the spindle stands"));
+    post.warn(PostCode::SpindleStands, format!("a feed move{tool}: the spindle is stopped"));
 }
 
 /// Warns of a motion at feed behind a stop of the program, which stops the spindle on some
@@ -136,7 +135,7 @@ fn warn_where_it_mills(post: &mut Post) {
 #[cold]
 fn warn_behind_stop(post: &mut Post) {
     if spindle::may_stand_behind_stop(&post.control) {
-        post.warn(PostCode::SpindleStands, format!("a motion at feed {}", spindle::BEHIND_STOP));
+        post.warn(PostCode::SpindleStands, format!("a feed move {}", spindle::BEHIND_STOP));
     }
 }
 

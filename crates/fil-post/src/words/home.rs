@@ -37,7 +37,7 @@ pub fn retrct(post: &mut Post, items: &mut Items) -> Result<()> {
             return Ok(());
         }
         return Err(items.error(
-            "no level is known to go up to: give home.retract_z, or let a FIL section take it",
+            "no retract height is known: set home.retract_z, or take it with a FIL section",
         ));
     };
     items.deny_rest()?;

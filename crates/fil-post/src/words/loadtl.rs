@@ -43,7 +43,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         None => (tool, false, cause),
     };
     if offset == 0 {
-        return refuse_none(items, "offset 0 takes the length of the tool off");
+        return refuse_none(items, "offset 0 cancels the tool length offset");
     }
     thread::end(post)?;
     post.path.interrupt();
@@ -79,8 +79,7 @@ fn gauge_length(post: &Post, items: &mut Items) -> Result<()> {
     if length.is_some() && holds_positions && !post.control.commons.read(loc::TOOL_IGNORE_LENGTH) {
         let mut diag = items.error("LENGTH would change the pivot distance of the head");
         diag.hint = Some(
-            "Post with tool-tip control (rotary.tip_output = 1), where the control knows the length; \
-             tool.ignore_length = 1 says that all tools are equally long."
+            "Post with TCPC (rotary.tip_output = 1), where the control knows the length; set tool.ignore_length = 1 if all tools have the same length."
                 .into(),
         );
         return Err(diag);

@@ -66,8 +66,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
             if angle.abs() > 180.0 && post.control.tables.axis(index + 3).full_turn() != 0 =>
         {
             return Err(items.error(
-                "INCR by more than half a turn, and positions of the table count within one turn: \
-                 it would go the other way round",
+                "INCR by more than 180 degrees, but table positions are within 360 degrees: the table would turn the other way",
             ));
         }
         (Some(angle), None, []) if angle < 0.0 && way.is_some() => {
@@ -108,7 +107,7 @@ fn signed_turn(
     match (says_twice, way(post, index, direction)) {
         (true, Some(_)) => (Some(on.abs()), direction),
         (true, None) => {
-            let message = "CLW or CCLW of ROTATE: the sign of INCR says it".to_string();
+            let message = "CLW or CCLW of ROTATE: the sign of INCR is the direction".to_string();
             post.warn(PostCode::IgnoredPart, message);
             (Some(on), None)
         }
@@ -170,8 +169,7 @@ fn by_way(post: &Post, index: usize, to: f64, way: Option<f64>, items: &Items) -
     let turn = if 360.0 - turn < axis.resolution() { 0.0 } else { turn };
     if turn > 180.0 && axis.full_turn() != 0 {
         return Err(items.error(
-            "more than half a turn in this direction, and positions of the table count within one \
-             turn: it would go the other way round",
+            "more than 180 degrees in this direction, but table positions are within 360 degrees: the table would turn the other way",
         ));
     }
     Ok(here + turn * way)
@@ -187,7 +185,7 @@ fn table(post: &Post, items: &mut Items) -> Result<usize> {
     });
     match (tables.next(), tables.next()) {
         (Some((index, _)), None) => Ok(index),
-        (Some(_), Some(_)) => Err(items.error("the machine has two tables: which is not said")),
+        (Some(_), Some(_)) => Err(items.error("the machine has two tables: name one")),
         _ => Err(items.error("the machine has no such table")),
     }
 }
@@ -195,7 +193,7 @@ fn table(post: &Post, items: &mut Items) -> Result<usize> {
 /// Where a table stands, degrees, over any number of turns.
 fn stands(post: &Post, index: usize, items: &Items) -> Result<f64> {
     let Some(here) = post.control.stands(index + 3) else {
-        return Err(items.error("INCR: where the table stands is not known"));
+        return Err(items.error("INCR: the table position is not known"));
     };
     Ok(post.path.rotary.map_or(here, |angles| angles[index]))
 }

@@ -29,8 +29,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
              must take them",
         );
         diag.hint = Some(
-            "Let a FIL section take it, or list SET under words.without_effect in machine.toml \
-             where it changes nothing on the machine."
+            "Take it with a FIL section, or list SET under words.without_effect in machine.toml if it changes nothing on the machine."
                 .into(),
         );
         return Err(diag);

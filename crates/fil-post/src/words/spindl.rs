@@ -88,11 +88,11 @@ fn refuse_of_side(post: &Post, items: &mut Items, is_side: bool) -> Result<()> {
         return Ok(());
     }
     if has(&[w::RANGE, w::ORIENT]) {
-        return Err(items.error("RANGE and ORIENT of the second spindle (SIDE) are not written"));
+        return Err(items.error("RANGE and ORIENT of the sub-spindle (SIDE) are not written"));
     }
     let of_surface = has(&[w::SFM, w::SMM, w::MAXRPM]);
     if of_surface && !counted::may_hold_surface_speed(&post.control) {
-        return Err(items.error("a surface speed of the second spindle (SIDE) is not written"));
+        return Err(items.error("a surface speed of the sub-spindle (SIDE) is not written"));
     }
     Ok(())
 }
@@ -101,7 +101,7 @@ fn refuse_of_side(post: &Post, items: &mut Items, is_side: bool) -> Result<()> {
 fn side(post: &mut Post, items: &mut Items) -> Result<()> {
     let stops = items.flag(w::OFF);
     if items.has(w::SFM) || items.has(w::SMM) || items.has(w::MAXRPM) {
-        return Err(items.error("a surface speed of the second spindle (SIDE) is not written"));
+        return Err(items.error("a surface speed of the sub-spindle (SIDE) is not written"));
     }
     items.flag(w::RPM);
     let speed = if stops { None } else { items.number() };
@@ -112,7 +112,7 @@ fn side(post: &mut Post, items: &mut Items) -> Result<()> {
     let turn = match direction {
         _ if stops => None,
         Some(word) => Some(word == w::CLW),
-        None => return Err(items.error("the second spindle needs CLW, CCLW or OFF")),
+        None => return Err(items.error("the sub-spindle needs CLW, CCLW or OFF")),
     };
     if speed.is_some_and(|speed| speed < 0.0) {
         return Err(items.error("the speed is negative; CCLW turns the other way"));

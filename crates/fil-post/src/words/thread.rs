@@ -56,7 +56,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
 pub fn pitch(post: &mut Post, items: &mut Items) -> Result<()> {
     let starts = starts(items, w::MULTRD)?;
     if starts != 1 {
-        return Err(items.error("MULTRD: the passes of THREAD are cut where the GOTO say"));
+        return Err(items.error("MULTRD: the passes of THREAD are cut at the GOTO points"));
     }
     let grows = items.couplet(w::INCR)?;
     let shrinks = items.couplet(w::DECR)?;
@@ -128,8 +128,8 @@ fn automatic(post: &mut Post, items: &mut Items) -> Result<()> {
     if kind != 0.0 {
         return Err(items.error(format!("a thread of TYPE {kind} is not known")));
     }
-    let depth = items.required("the depth of the thread behind TYPE,0")?;
-    let angle = items.required("the angle of the profile behind TYPE,0,depth")?;
+    let depth = items.required("the depth of the thread after TYPE,0")?;
+    let angle = items.required("the angle of the profile after TYPE,0,depth")?;
     if let Some(cuts) = offset {
         let by = items.number().unwrap_or(0.0);
         if cuts > 1.0 || by != 0.0 {
@@ -159,7 +159,7 @@ fn automatic(post: &mut Post, items: &mut Items) -> Result<()> {
 
 /// The two points at the head of the record.
 fn points(post: &Post, items: &mut Items) -> Result<[Target; 2]> {
-    let wrong = |items: &Items| items.error("AUTO needs x,y,z,TO,x,y,z behind it");
+    let wrong = |items: &Items| items.error("AUTO needs x,y,z,TO,x,y,z after it");
     if !items.word_at(TO, w::TO) {
         return Err(wrong(items));
     }
@@ -191,7 +191,7 @@ fn side(post: &Post, items: &mut Items, crest: [Target; 2]) -> Result<ThreadSide
         (None, Some(from)) if from.x.abs() > start.x.abs() => Ok(ThreadSide::Outside),
         (None, Some(from)) if from.x.abs() < start.x.abs() => Ok(ThreadSide::Inside),
         _ => PostCode::Thread
-            .err("neither a word nor the place of the tool says on which side of it the thread is"),
+            .err("neither a word nor the tool position gives the side of the thread"),
     }
 }
 

@@ -74,7 +74,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
 /// Three numbers and twelve: whether the later TRANS takes the place of the earlier one, or adds
 /// to it, is not published.
 fn both(items: &Items) -> Box<Diag> {
-    items.error("a TRANS of three numbers and one of twelve: put TRANS/NOMORE between them, or say both by twelve")
+    items.error("a TRANS of three numbers and one of twelve: put TRANS/NOMORE between them, or write both with twelve")
 }
 
 /// Takes another transformation.

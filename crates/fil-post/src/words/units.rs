@@ -45,7 +45,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
 /// it nothing tells which of the two is meant.
 fn refuse_other(post: &Post, unit: Unit) -> Result<()> {
     if let Some(only) = Unit::of_machine(&post.control.commons).filter(|only| *only != unit) {
-        let message = format!("UNITS says {unit}, and the machine takes {only} only (units.mode)");
+        let message = format!("UNITS is {unit}, but the machine takes {only} only (units.mode)");
         let diag = PostCode::Units.diag(message);
         return Err(Box::new(diag.hint(
             "Post it for a machine that takes this unit, or correct units.mode of the machine (1 inch, 2 mm).",
@@ -58,7 +58,7 @@ fn refuse_other(post: &Post, unit: Unit) -> Result<()> {
                 .err(format!("{lengths} came before it in the other unit ({stated})"))
         }
         (None, Some(given)) if given != unit => {
-            PostCode::Units.err(format!("UNITS says {unit}, and {given} is given"))
+            PostCode::Units.err(format!("UNITS is {unit}, but {given} is given"))
         }
         _ => Ok(()),
     }

@@ -22,9 +22,11 @@ impl Compiler<'_> {
         let name = text.trim().to_ascii_uppercase();
         let called = name.strip_suffix(')').and_then(|call| call.split_once('('));
         if called.is_some_and(|(called, _)| self.is_called(called)) || self.are_values(&name) {
-            let message = format!("{name} would be written as it stands, not as its value");
-            let hint =
-                format!("the values: {}/'',{name}; the text as it stands: {0}/'{name}'", word.text);
+            let message = format!("{name} would be written literally, not as its value");
+            let hint = format!(
+                "for the values {}/'',{name}; for the literal text {0}/'{name}'",
+                word.text
+            );
             self.report_with(CompileCode::NotYet, word.span, message, Some(hint));
             return;
         }

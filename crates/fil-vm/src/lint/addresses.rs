@@ -29,7 +29,7 @@ pub(super) fn look(context: &mut Context<'_>) {
                 let Some(number) = address(context, arg) else { continue };
                 if !writes(number) && !moved.contains(&number) {
                     let name = char::from(b'A' + number - 1);
-                    let message = format!("the machine has no position for {name} on its tape");
+                    let message = format!("the machine has no tape position for {name}");
                     found.push(context.diag(LintCode::NoAddress, node.unit, arg.span, message));
                 }
             }

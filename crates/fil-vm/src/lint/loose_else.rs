@@ -23,7 +23,7 @@ pub(super) fn look(context: &mut Context<'_>) {
         found.extend(loose.map(|span| (number, span)));
     }
     for (unit, span) in found {
-        let message = "the ELSE behind it belongs to the IF around it".to_string();
+        let message = "the ELSE after it belongs to the IF around it".to_string();
         context.report(LintCode::LooseElse, unit, span, message);
     }
 }

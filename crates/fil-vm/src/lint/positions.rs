@@ -55,14 +55,13 @@ pub(super) fn look(context: &mut Context<'_>) {
                     return;
                 }
                 let message = format!(
-                    "word {n} of {} stands behind optional couplets of the record",
+                    "word {n} of {} comes after optional couplets of the record",
                     layout.major
                 );
                 let mut diag = context.diag(LintCode::ShiftingWord, node.unit, call.span, message);
                 diag.hint = layout.usual.iter().find(|(usual, _)| *usual == n).map(|(_, word)| {
                     format!(
-                        "COUPLF({word}) reads the value after {word}, wherever it stands; \
-                         POSTF(9,4,ICODEF({word})) finds the word itself"
+                        "COUPLF({word}) reads the value after {word} at any position; POSTF(9,4,ICODEF({word})) finds the word itself"
                     )
                 });
                 found.push(diag);

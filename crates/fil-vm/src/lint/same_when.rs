@@ -35,7 +35,7 @@ pub(super) fn look(context: &mut Context<'_>) {
     }
     for (unit, code, span) in found {
         let message = match code {
-            LintCode::EmptyWhen => "no statement stands between this WHEN and the next",
+            LintCode::EmptyWhen => "no statement between this WHEN and the next",
             _ => "an earlier WHEN of this CASE takes this value",
         };
         context.report(code, unit, span, message.to_string());

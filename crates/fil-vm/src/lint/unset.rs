@@ -26,7 +26,7 @@ fn letters(context: &mut Context<'_>) {
     for symbol in letters.filter(|symbol| symbol.definitions.is_empty()) {
         let Some(number) = letter(&symbol.name) else { continue };
         if let Some(first) = symbol.uses.iter().find(|used| used.role == Role::Operand) {
-            let message = format!("{} stands for the number {number} here", symbol.name);
+            let message = format!("{} is the number {number} here", symbol.name);
             context.diags.push(context.at(LintCode::LetterInExpression, first.location, message));
         }
     }

@@ -76,7 +76,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                 Item::Value(reg) => match self.read(registers, *reg)? {
                     Text(id) => text.push_str(self.state.texts.get(id)),
                     Empty | Unset => {
-                        let message = format!("EMPTY stands in the text of {}", template.name);
+                        let message = format!("EMPTY is in the text of {}", template.name);
                         return Err(fault(RunCode::WrongType, message));
                     }
                     Value::Word(_) => return Err(self.not_a_number(registers, *reg)),

@@ -130,7 +130,7 @@ impl<'t> Resolver<'t, '_> {
             let message = format!("{name} is an array or macro");
             self.report(CompileCode::ArrayMisuse, span, message);
         } else if is_text {
-            let message = format!("{name} is set nowhere, so it would be written as it stands");
+            let message = format!("{name} is never set, so it would be written literally");
             self.report(CompileCode::NameInText, span, message);
         }
     }
@@ -141,7 +141,7 @@ impl<'t> Resolver<'t, '_> {
         match &value.kind {
             ExprKind::Name(name) => {
                 if let Some(number) = letter(name).filter(|_| !self.is_assigned(name)) {
-                    let message = format!("{name} stands for the number {number} here");
+                    let message = format!("{name} is the number {number} here");
                     self.report(CompileCode::LetterAsValue, value.span, message);
                 }
             }

@@ -229,7 +229,7 @@ impl<'t> Resolver<'t, '_> {
     fn label_given(&mut self, name: &'t Name) {
         let symbol = self.label(&name.text);
         if !self.symbols[symbol].definitions.is_empty() {
-            let message = format!("the label {} stands here already", name.text);
+            let message = format!("the label {} is already here", name.text);
             // A file that is included twice gives its labels twice.
             let again = std::mem::replace(&mut self.again, false);
             self.report(CompileCode::LabelTwice, name.span, message);

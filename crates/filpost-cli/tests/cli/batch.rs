@@ -102,12 +102,15 @@ fn scripts_that_write_run_one_after_the_other() {
 #[test]
 fn the_same_refusal_of_many_files_is_shown_three_times_and_counted() {
     let wrong = SMALL.replace("UNITS", "MACHIN / UNCX01, 1\nUNITS");
-    let place = (1..=20)
+    let place = (1..=30)
         .fold(Folder::new(), |place, n| place.with(&format!("cl/op{n:02}.ncl"), wrong.as_str()));
     let ran = place.with("cl/good.ncl", SMALL).run(&["post", "cl", "-o", "nc"]);
     assert_eq!(ran.status, 1);
     assert_eq!(ran.err.matches("E0714 MACHIN names no post").count(), 3, "{}", ran.err);
-    let rest = "E0714 there is no post for MACHIN/UNCX01,1: the same in 17 more files\n";
+    let rest = "E0714 there is no post for MACHIN/UNCX01,1: the same in 27 more files\n";
     assert!(ran.err.contains(rest), "{}", ran.err);
-    assert!(ran.err.contains("1 file posted, 20 refused"), "{}", ran.err);
+    // So are the rows of the table.
+    assert_eq!(ran.err.matches("refused, E0714").count(), 4, "{}", ran.err);
+    assert!(ran.err.contains("\n27 more files: refused, E0714\n"), "{}", ran.err);
+    assert!(ran.err.contains("1 file posted, 30 refused"), "{}", ran.err);
 }

@@ -13,7 +13,7 @@ fn diff(first: &[u8], second: &[u8], more: &[&str]) -> Ran {
 fn programs_that_say_the_same() {
     let output =
         diff(RIGHT.as_bytes(), b"\xef\xbb\xbf%\r\nN10G01X1.000Z-4.70F200.\r\nM30\r\n%", &[]);
-    assert_eq!(output.out, "the programs say the same\n");
+    assert_eq!(output.out, "the programs are equivalent\n");
     assert_eq!(output.status, 0);
 }
 

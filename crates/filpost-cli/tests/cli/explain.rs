@@ -19,6 +19,8 @@ fn subjects_are_explained() {
         ("SQRTF", "quare root"),
         ("grbl", "GRBL"),
         ("G83", "cycle.deep_code"),
+        ("G83", "deep-hole peck drilling"),
+        ("preload", "option of ready posts"),
         ("m08", "Standard code for coolant"),
         ("retract", "home.retract_z"),
         ("trunnion", "haas-trunnion"),

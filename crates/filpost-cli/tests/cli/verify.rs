@@ -64,7 +64,7 @@ fn how_far_the_tip_leaves_its_line_is_said() {
 #[test]
 fn more_than_the_option_allows_is_a_finding() {
     let ran = verify(PART, PROGRAM, &TABLE, &["--between", "29"]);
-    let said = "NC line 6 (CL line 6): the tip leaves its line by 29.2893 on the way, 29 is \
+    let said = "NC line 6 (CL line 6): the tip leaves its line by 29.2893 during the move, 29 is \
                 allowed\n    N40 G1 A90. F200.\n";
     assert!(ran.out.starts_with(said) && ran.status == 1, "{ran:?}");
     assert_eq!(verify(PART, PROGRAM, &TABLE, &["--between", "29.2894"]).status, 0);
@@ -77,7 +77,10 @@ fn more_than_the_option_allows_is_a_finding() {
 fn lintol_of_the_cl_file_is_the_limit_where_the_option_gives_none() {
     let lintol = |value: &str| PART.replace("MULTAX", &format!("LINTOL / {value}\nMULTAX"));
     let ran = verify(&lintol("0.02"), PROGRAM, &TABLE, &[]);
-    assert!(ran.out.contains("29.2893 on the way, 0.02 is allowed") && ran.status == 1, "{ran:?}");
+    assert!(
+        ran.out.contains("29.2893 during the move, 0.02 is allowed") && ran.status == 1,
+        "{ran:?}"
+    );
     assert_eq!(verify(&lintol("0.02"), PROGRAM, &TABLE, &["--between", "30"]).status, 0);
     assert_eq!(verify(&lintol("0.02\nLINTOL / OFF"), PROGRAM, &TABLE, &[]).status, 0);
     assert_eq!(verify(&lintol("30"), PROGRAM, &TABLE, &[]).status, 0);
@@ -107,11 +110,15 @@ fn points_on_the_way_make_the_same_motion() {
 #[test]
 fn points_beside_the_way_are_found() {
     for (old, new, said) in [
-        ("Z70.711", "Z70.721", "on the way the tip is 0.0103 off its line"),
+        ("Z70.711", "Z70.721", "during the move the tip is 0.0103 off its line"),
         ("Z70.711", "Z30.", "line at feed"),
         ("A45.", "A-45.", "line at feed"),
         // The tip is on its line, the tool turned the other way.
-        ("Z70.711 A45.", "Y-70.711 Z0. A-45.", "on the way the tool is not between its ends"),
+        (
+            "Z70.711 A45.",
+            "Y-70.711 Z0. A-45.",
+            "during the move the tool axis is not between its end positions",
+        ),
     ] {
         let ran = verify(PART, &with_point_between().replace(old, new), &TABLE, &[]);
         assert!(ran.out.contains(said) && ran.status == 1, "{new}: {ran:?}");
@@ -135,7 +142,7 @@ fn a_line_of_three_axes_may_stand_in_parts() {
     let ran = verify(cl, &program(parts), &mill, &["--between", "0"]);
     assert!(ran.out.contains("agrees with part.ncl; 2 of 2") && ran.status == 0, "{ran:?}");
     for (old, new, said) in [
-        ("Y6.667", "Y6.669", "on the way the tip is 0.00"),
+        ("Y6.667", "Y6.669", "during the move the tip is 0.00"),
         ("X6. Y12. Z0.8", "X3. Y6. Z2.9", "asks for no line at feed"),
         ("N50 X6", "N50 G0 X6", "asks for no"),
         ("F200.\nN50", "F100.\nN50", "feed 100 mm/min, it should be 200 mm/min"),
@@ -157,5 +164,8 @@ fn a_program_with_fil_is_looked_at_block_by_block() {
     assert!(ran.out.contains("does what a second run of the post makes"), "{ran:?}");
     assert!(ran.out.contains("leaves its line by at most 29.2893 mm"), "{ran:?}");
     let ran = run(&["verify", "part.ncl", "part.nc", "--between", "1"]);
-    assert!(ran.out.contains("29.2893 on the way, 1 is allowed") && ran.status == 1, "{ran:?}");
+    assert!(
+        ran.out.contains("29.2893 during the move, 1 is allowed") && ran.status == 1,
+        "{ran:?}"
+    );
 }

@@ -32,7 +32,7 @@ const RIGHT: &[(&str, &str)] = &[("docs/glossary.md", "second spindle")];
 /// Pages of other sources: tables of the code, the history, what files print.
 fn pages() -> Vec<(String, String)> {
     let mut names = vec!["README.md".to_string()];
-    for folder in ["docs", "docs/papers", "docs/editors", "docs/howto"] {
+    for folder in ["docs", "docs/papers", "docs/editors", "docs/errors", "docs/howto"] {
         let entries = std::fs::read_dir(root().join(folder)).expect("a folder of pages");
         let files = entries.flatten().map(|entry| entry.file_name().display().to_string());
         names.extend(
@@ -89,6 +89,26 @@ fn the_pages_use_the_terms_of_manuals() {
                     wrong.push(format!("{name}:{}: `{old}` for {term}", index + 1));
                 }
             }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The texts of the settings, which `explain`, `machine show` and the studio print.
+#[test]
+fn the_settings_use_the_terms_of_manuals() {
+    let path = root().join("crates/fil-machine/data/locations.tsv");
+    let table = std::fs::read_to_string(path).expect("the table of the settings");
+    let mut wrong = Vec::new();
+    for row in table.lines().filter(|row| !row.starts_with('#')) {
+        let columns: Vec<&str> = row.split('\t').collect();
+        let [_, _, name, _, _, choices, meaning, ..] = columns[..] else { continue };
+        let text = format!("{choices} {meaning}").to_lowercase();
+        let found = OLD_TERMS.iter().filter(|(old, _)| text.contains(old));
+        wrong.extend(found.map(|(old, term)| format!("{name}: `{old}` for {term}")));
+        // Where a meaning comes from is in the column of the evidence.
+        if text.contains("numbers are ours") || text.contains("reports list") {
+            wrong.push(format!("{name}: evidence in its text"));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

@@ -206,7 +206,7 @@ fn modes_of_the_control_are_told_in_words_of_the_field() {
         ("unit", "G21 mm"),
         ("feed", "G94 per minute"),
         ("compensation", "G41 left of the path"),
-        ("tool-tip control", "off"),
+        ("TCPC", "off"),
         ("canned cycle", "off"),
         ("tool", "4"),
         ("spindle", "clockwise"),

@@ -69,7 +69,7 @@ pub(super) fn effects(
             kind,
             cl_line: None,
             nc_line: Some(made.to.line),
-            message: format!("the post's block does otherwise than without scripts: {message}"),
+            message: format!("the post's block differs from the one without scripts: {message}"),
         });
         if report.findings.len() == Report::LISTED {
             break;
@@ -88,8 +88,8 @@ fn differs(asked: &Step, made: &Step) -> Option<(FindingKind, String)> {
         Course::Machine => "rapid traverse to a point of the machine",
     };
     let feed = |rate: Option<Rate>| match rate {
-        Some(Rate::PerMinute(_)) => "a feed a minute",
-        Some(Rate::PerTurn(_) | Rate::Varying(..)) => "a feed a turn",
+        Some(Rate::PerMinute(_)) => "feed per minute",
+        Some(Rate::PerTurn(_) | Rate::Varying(..)) => "feed per revolution",
         Some(Rate::Inverse(_)) => "a feed in inverse time",
         None => "no feed",
     };
@@ -217,7 +217,7 @@ mod tests {
         let nc = PART.replace("G1 X10.", "G95\nG1 X10.");
         let same = [(1, 1), (2, 2), (3, 4), (4, 5), (5, 6)];
         let found = findings(PART, &nc, &same);
-        assert!(found[0].contains("a feed a turn in place of a feed a minute"), "{found:?}");
+        assert!(found[0].contains("feed per revolution in place of feed per minute"), "{found:?}");
     }
 
     #[test]

@@ -254,7 +254,7 @@ fn levels(said: &BTreeMap<String, String>) -> Result<Levels, Box<Diag>> {
             continue;
         }
         let Ok(profile) = level.parse() else {
-            return RunCode::CannotAllow.err(format!("`{level}` is no profile of levels"));
+            return RunCode::CannotAllow.err(format!("`{level}` is not a profile of levels"));
         };
         levels.choose(profile);
     }

@@ -20,7 +20,7 @@ type Result<T> = std::result::Result<T, Box<Diag>>;
 pub fn evaluate(text: &str, state: &DebugState<'_, '_>) -> Result<Held> {
     let text = text.trim();
     if text.is_empty() || text.contains(['\n', '\r']) {
-        return refuse("an expression stands on one line");
+        return refuse("an expression must be on one line");
     }
     let fil_syntax::Parsed { program, diags } =
         fil_syntax::parse("expression", &format!("X={text}\n"));

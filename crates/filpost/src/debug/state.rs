@@ -47,8 +47,7 @@ impl DebugState<'_, '_> {
     /// A location or a value that there is not; a macro edits what is written.
     pub fn set_common(&mut self, kind: Kind, location: u32, value: f64) -> Result<(), Box<Diag>> {
         let World::Post(post) = &mut self.world else {
-            return RunCode::WhileWriting
-                .err("nothing is set while a block is on its way to the tape");
+            return RunCode::WhileWriting.err("nothing can be set while a block is being written");
         };
         post.control.check_setting(kind, location, value)?;
         post.control.commons.set(kind, location, value)

@@ -1,7 +1,8 @@
-//! What a code, a setting, a word, a function, a location, a G or M code or a ready post
-//! means: the texts of `filpost explain`.
+//! What a code, a setting, a word, a function, a location, a G or M code, a ready post or an option
+//! of one means: the texts of `filpost explain`.
 
 mod nc_function;
+mod option;
 mod plain;
 
 use fil_cl::Vocabulary;
@@ -17,7 +18,7 @@ use crate::ready::{self, READY};
 use crate::word_pages;
 
 /// What a subject means, `E0501`, `rapid.split`, `CYCLE`, `POSTF 13`, `INTCOM 1861`, `G83`,
-/// `haas-mill`, or part of a name; `None` for one that nothing is known of. `further` are codes
+/// `haas-mill`, `preload`, or part of a name; `None` for an unknown one. `further` are codes
 /// besides those of [`crate::all_codes`].
 ///
 /// ```
@@ -68,7 +69,19 @@ fn one(word: &str, further: &[Code]) -> Option<String> {
     if parts.is_empty() {
         parts.extend(part_of_names(word));
     }
+    parts.extend(option::explain(&word.to_ascii_lowercase()));
     (!parts.is_empty()).then(|| parts.join("\n\n"))
+}
+
+/// Most ready posts that are named; of more their number is given.
+const MOST_NAMED: usize = 6;
+
+fn counted(names: &[&str]) -> String {
+    if names.len() <= MOST_NAMED {
+        names.join(", ")
+    } else {
+        format!("{} of {} ready posts", names.len(), READY.len())
+    }
 }
 
 fn numbered(table: &str, number: &str) -> Option<String> {
@@ -132,8 +145,8 @@ fn code(name: &str, further: &[Code]) -> Option<String> {
 fn code_text(code: &Code) -> String {
     let kind = match code.kind {
         CodeKind::Warning => "Warning",
-        CodeKind::Error => "Error: nothing is written",
-        CodeKind::Doubt => "Doubt: it can be done, and may not be what is meant",
+        CodeKind::Error => "Error: no program is written",
+        CodeKind::Doubt => "Doubt: it can be posted, but may not be intended",
     };
     let level = crate::level_line(code).map_or_else(String::new, |line| format!("\n{line}"));
     format!(

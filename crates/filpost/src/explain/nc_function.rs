@@ -9,13 +9,35 @@ use crate::ready::READY;
 
 /// The controls whose standard numbers differ.
 const DIALECTS: [(Dialect, &str); 3] = [
-    (Dialect::Mill, "mills (Fanuc and its like; of Heidenhain the M codes)"),
+    (Dialect::Mill, "mills (Fanuc style; Heidenhain: M codes only)"),
     (Dialect::LatheA, "lathes (G code system A)"),
     (Dialect::Sinumerik, "SINUMERIK"),
 ];
 
-/// Most ready posts that are named; of more their number is given.
-const MOST_NAMED: usize = 6;
+/// Canned cycles of mills, which are one row of the table of functions.
+const MILL_CYCLES: [(&str, &str); 11] = [
+    ("73", "high-speed peck drilling (chip breaking)"),
+    ("74", "left-hand tapping"),
+    ("76", "fine boring"),
+    ("81", "drilling"),
+    ("82", "drilling with dwell (counterboring)"),
+    ("83", "deep-hole peck drilling"),
+    ("84", "tapping"),
+    ("85", "boring, feed out"),
+    ("86", "boring, spindle stop and rapid out"),
+    ("87", "back boring"),
+    ("89", "boring with dwell, feed out"),
+];
+
+/// Canned cycles of lathes with G code system A.
+const LATHE_CYCLES: [(&str, &str); 6] = [
+    ("83", "deep-hole drilling on the face"),
+    ("84", "tapping on the face"),
+    ("85", "boring on the face"),
+    ("87", "deep-hole drilling on the side"),
+    ("88", "tapping on the side"),
+    ("89", "boring on the side"),
+];
 
 /// Explains `G83`, `g54.1` or `M08`; `None` for a text that is no code or an unknown code.
 pub fn explain(word: &str) -> Option<String> {
@@ -36,20 +58,32 @@ pub fn explain(word: &str) -> Option<String> {
     (!parts.is_empty()).then(|| format!("{name}\n\n{}", parts.join("\n")))
 }
 
-/// What controls take the code for: `A hole on mills with G codes and on lathes.`
+/// What the code means on each control: `Standard code for tapping, on mills (Fanuc style).`
 fn standard(space: Space, code: FunctionCode) -> Vec<String> {
     let mut meanings: Vec<(&str, Vec<&str>)> = Vec::new();
     for (dialect, controls) in DIALECTS {
         let Some(row) = functions::standard(dialect, space, code) else { continue };
-        match meanings.iter_mut().find(|(title, _)| *title == row.title) {
+        let title = cycle(dialect, code).filter(|_| row.space == Space::Cycle).unwrap_or(row.title);
+        match meanings.iter_mut().find(|(other, _)| *other == title) {
             Some((_, all)) => all.push(controls),
-            None => meanings.push((row.title, vec![controls])),
+            None => meanings.push((title, vec![controls])),
         }
     }
     let line = |(title, controls): (&str, Vec<&str>)| {
         format!("Standard code for {title}, on {}.", controls.join(", "))
     };
     meanings.into_iter().map(line).collect()
+}
+
+/// The canned cycle of a code.
+fn cycle(dialect: Dialect, code: FunctionCode) -> Option<&'static str> {
+    let names: &[(&str, &str)] = match dialect {
+        Dialect::Mill => &MILL_CYCLES,
+        Dialect::LatheA => &LATHE_CYCLES,
+        _ => &[],
+    };
+    let number = code.to_string();
+    names.iter().find(|(code, _)| *code == number).map(|(_, name)| *name)
 }
 
 /// The settings that hold the code in a ready post, each with its meaning and the posts.
@@ -72,17 +106,9 @@ fn settings(space: Space, code: FunctionCode) -> Vec<String> {
             let location = Location::numbered(Kind::Int, u32::from(setting.at.0));
             if let (Some(location), false) = (location, names.is_empty()) {
                 lines.push(format!("  {:<28} {}", location.name, location.meaning));
-                lines.push(format!("{:>30} {}", "", counted(&names)));
+                lines.push(format!("{:>30} {}", "", super::counted(&names)));
             }
         }
     }
     lines
-}
-
-fn counted(names: &[&str]) -> String {
-    if names.len() <= MOST_NAMED {
-        names.join(", ")
-    } else {
-        format!("{} of {} ready posts", names.len(), READY.len())
-    }
 }

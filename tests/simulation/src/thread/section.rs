@@ -37,7 +37,7 @@ pub struct Cut {
 pub fn cut(thread: &Thread, program: &Program) -> Result<Cut, String> {
     for (line, radius, _) in &program.rapids {
         if thread.inwards() * (radius - thread.crest) < FINE {
-            return Err(format!("NC line {line}: rapid motion within the stock"));
+            return Err(format!("NC line {line}: rapid move within the stock"));
         }
     }
     let mut grooves = vec![Groove::new(thread); thread.starts as usize];

@@ -95,6 +95,17 @@ fn every_code_has_its_page_and_every_page_its_code() {
 }
 
 #[test]
+fn titles_are_short() {
+    for code in all_codes() {
+        let words: Vec<&str> = code.title.split_whitespace().collect();
+        assert!(words.len() <= 10, "{}: {}", code.name(), code.title);
+        let is_clause = words.iter().any(|word| ["that", "which", "who", "what"].contains(word));
+        assert!(!is_clause, "{}: {}", code.name(), code.title);
+        assert!(!code.hint.is_empty(), "{} has no hint", code.name());
+    }
+}
+
+#[test]
 fn a_page_says_the_levels_of_its_code() {
     for code in all_codes() {
         let (_, page) = &pages()[&code.name()];

@@ -355,7 +355,7 @@ impl<'a> TomlReader<'a> {
             return self.store(commons, (kind, number), number_said, key);
         }
         if name == BASE {
-            let message = "`base` stands in the machine.toml of a machine, not in one laid over it";
+            let message = "`base` belongs in the machine.toml of a machine, not in an overlay";
             return Err(self.at(key, Diag::new(MachineCode::UnknownSetting, message)));
         }
         let Some(location) = Location::named(name) else {

@@ -148,7 +148,7 @@ impl Klartext<'_> {
         match has_value {
             true => Ok(()),
             false => {
-                let message = format!("cycle {number} is named, and nothing says its values");
+                let message = format!("cycle {number} without its values");
                 Err(Fault::new(NcCode::MissingWord, message))
             }
         }
@@ -241,7 +241,7 @@ impl Klartext<'_> {
         let missing = || Fault::new(NcCode::MissingWord, "no cycle is defined");
         let definition = self.defined.clone().ok_or_else(missing)?;
         if self.state.feed.mode != FeedMode::PerMinute {
-            let message = "a cycle under M136: whether it takes its feed a turn is not followed";
+            let message = "a cycle under M136: its feed per revolution is not supported";
             return Err(Fault::new(NcCode::ForeignCode, message));
         }
         let hole = self.hole(&definition)?;
@@ -397,7 +397,7 @@ impl Klartext<'_> {
         if self.state.modes.spindle.turn == Spindle::Off || self.state.modes.spindle.turn == turns {
             return Ok(());
         }
-        let message = "the sign of Q239 asks for the other sense than the spindle turns in";
+        let message = "the sign of Q239 does not match the spindle direction";
         Err(Fault::new(NcCode::NoMeaning, message))
     }
 
@@ -405,7 +405,7 @@ impl Klartext<'_> {
     fn old_hole(&self, definition: &Definition) -> Result<Hole, Fault> {
         let length = |name: &str| definition.get(name).map(|value| self.state.length(2, value));
         if !self.state.known[2] {
-            return Err(Fault::new(NcCode::NoMeaning, "it is not known where the tool stands"));
+            return Err(Fault::new(NcCode::NoMeaning, "the tool position is not known"));
         }
         let clear = self.state.at[2];
         let (dist, depth, step) =

@@ -147,7 +147,7 @@ impl Klartext<'_> {
             (Part::Body | Part::Ended, ["END", "PGM", .., unit @ ("MM" | "INCH")])
                 if (*unit == "MM") != self.state.metric =>
             {
-                let message = "END PGM says another unit than BEGIN PGM";
+                let message = "END PGM and BEGIN PGM have different units";
                 return Err(Fault::new(NcCode::Twice, message));
             }
             (Part::Body | Part::Ended, ["END", "PGM", ..]) => {

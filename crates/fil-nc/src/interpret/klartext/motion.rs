@@ -39,7 +39,7 @@ impl Klartext<'_> {
     pub(super) fn straight(&mut self, words: &[Word]) -> Result<(), Fault> {
         let said = self.said(words)?;
         if said.ccw.is_some() || said.radius.is_some() || said.angle.is_some() {
-            return Err(Fault::new(NcCode::NoMeaning, "a line has no sense and no radius"));
+            return Err(Fault::new(NcCode::NoMeaning, "a line has no direction and no radius"));
         }
         if said.axes != [None; 5] {
             if said.machine {
@@ -209,7 +209,7 @@ impl Klartext<'_> {
         Ok(match rate {
             Rate::PerMinute(rate) if !self.state.metric => Rate::PerMinute(rate * TENTHS),
             Rate::PerTurn(_) if !self.state.metric => {
-                let message = "a feed a turn in inches: what F counts then is not followed";
+                let message = "feed per revolution in inches: this meaning of F is not supported";
                 return Err(Fault::new(NcCode::ForeignCode, message));
             }
             rate => rate,

@@ -278,7 +278,7 @@ impl Sinumerik<'_> {
                 Some(value) => Ok(sign * value),
                 None => Err(word.foreign("takes a parameter that has no value here")),
             },
-            Value::Unread => Err(word.foreign("is given a calculation, which is not followed")),
+            Value::Unread => Err(word.foreign("is given an expression, which is not supported")),
             _ => Err(word.no_meaning()),
         }
     }

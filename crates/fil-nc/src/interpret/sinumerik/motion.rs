@@ -33,7 +33,7 @@ impl Sinumerik<'_> {
                 self.state.go(target, course, rate);
             }
             Some(_) if said.direction != [None; 3] => {
-                let message = "a direction of the tool beside what is no straight line";
+                let message = "a tool direction vector in a move that is not a straight line";
                 return Err(Fault::new(NcCode::NoMeaning, message));
             }
             Some(Function::Thread) => self.thread(said, None)?,
@@ -53,7 +53,7 @@ impl Sinumerik<'_> {
             }
             Some(_) => return Err(no_arc()),
             None => {
-                let message = "no G word says how the axes move";
+                let message = "no G code for this axis move";
                 return Err(Fault::new(NcCode::NoMotion, message));
             }
         }
@@ -93,7 +93,7 @@ impl Sinumerik<'_> {
         };
         // The square of the lead changes by twice the change times the way.
         if lead * lead + 2.0 * change * way(0).max(way(2)) <= 0.0 {
-            let message = "the lead comes to nothing before the end of the thread";
+            let message = "the lead reaches zero before the end of the thread";
             return Err(Fault::new(NcCode::BadNumber, message));
         }
         self.state.go(target, Course::Thread, Some(Rate::Varying(lead, change)));

@@ -41,7 +41,7 @@ impl Sinumerik<'_> {
         }
         let status = number(2)?;
         if status % 100.0 != 0.0 {
-            return Err(call.foreign("adds to a plane, or keeps the tip, which is not followed"));
+            return Err(call.foreign("adds to a plane, or keeps the tip, which is not supported"));
         }
         let angles = [number(7)?, number(8)?, number(9)?];
         let turn = turn(number(3)?, angles)

@@ -84,7 +84,7 @@ impl Sinumerik<'_> {
             _ => return Err(word.no_meaning()),
         };
         if !self.state.known[C] {
-            return refuse("TRACYL, and where C stands is not known");
+            return refuse("TRACYL while the position of C is not known");
         }
         self.state.live.cylinder = Some(diameter / 2.0 * self.state.unit());
         Ok(())
@@ -171,7 +171,7 @@ impl Sinumerik<'_> {
             return Ok(());
         }
         if self.state.feed.mode == FeedMode::PerTurn {
-            return refuse("a feed a turn of a main spindle that is the axis C");
+            return refuse("feed per revolution of a main spindle in C-axis mode");
         }
         if self.state.live.cylinder.is_some() || self.state.live.polar && (normal != 2 || rises) {
             return refuse("an arc in TRACYL, or of TRANSMIT in another plane than X and Y");

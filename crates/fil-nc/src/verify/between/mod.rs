@@ -321,11 +321,11 @@ impl<C: Steps> Verifier<'_, C> {
 fn leaning(leans: f64, most: f64) -> String {
     let (leans, most) = (short(leans), short(most));
     format!(
-        "the tool leans {leans} degrees out of the plane of its ends on the way, {most} are allowed"
+        "the tool tilts {leans} degrees out of the plane of its end positions, {most} are allowed"
     )
 }
 
 fn said(off: f64, limit: f64) -> String {
     let (off, limit) = (short(off), short(limit));
-    format!("the tip leaves its line by {off} on the way, {limit} is allowed")
+    format!("the tip leaves its line by {off} during the move, {limit} is allowed")
 }

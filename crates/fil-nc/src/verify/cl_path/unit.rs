@@ -33,7 +33,7 @@ impl ClPath<'_> {
         if self.state.unit.is_some() || !measures {
             return Ok(());
         }
-        Err(self.no_unit("a length or feed comes before anything says mm or inch"))
+        Err(self.no_unit("a length or feed comes before mm or inch is set"))
     }
 
     /// Refuses a UNITS statement that says another unit than the one that was given, or
@@ -44,7 +44,7 @@ impl ClPath<'_> {
         match self.state.unit.filter(|known| is_units && *known != said(record)) {
             Some(known) => {
                 let how = if self.given { "is given" } else { "came before" };
-                Err(self.no_unit(&format!("{known} {how}, and UNITS says {}", said(record))))
+                Err(self.no_unit(&format!("{known} {how}, but UNITS is {}", said(record))))
             }
             None => Ok(()),
         }

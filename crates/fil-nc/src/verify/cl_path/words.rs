@@ -93,7 +93,7 @@ pub(super) const WORDS: &[(WordId, Reading)] = &[
     (w::PARTNO, Ignored(COMMENT)),
     (w::PLABEL, Ignored(COMMENT)),
     (w::PPRINT, Ignored(COMMENT)),
-    (w::REPLAC, Ignored("it changes letters of the tape, which is compared as it is")),
+    (w::REPLAC, Ignored("it changes letters of the program, which is compared as it is")),
     (w::SELCTL, Ignored("it prepares a tool, and the change after it is compared")),
     (w::SELECT, Ignored("it prepares a tool, and the change after it is compared")),
     (w::SEQNO, Ignored("it numbers blocks, which moves and switches nothing")),

@@ -49,11 +49,11 @@ pub(super) const RULES: [(FindingKind, Rule); 15] = [
 /// What must be off where a tool is changed and at the end, besides.
 pub(super) const STANDING: [(FindingKind, Rule); 2] = [
     (FindingKind::Tool, |_, seen| {
-        let said = "tool-tip control is on, it should be off";
+        let said = "TCPC is on, it should be off";
         seen.modes.frame.tip_control.then(|| said.to_string())
     }),
     (FindingKind::Tool, |_, seen| {
-        let said = "a tilted frame is in force, it should be ended";
+        let said = "a tilted work plane is in force, it should be ended";
         seen.modes.frame.tilted.then(|| said.to_string())
     }),
 ];
@@ -122,7 +122,7 @@ fn coolant_again(expected: &Expected, seen: &Seen) -> Option<String> {
     is_missing.then(|| format!("the coolant {AGAIN}"))
 }
 
-const AGAIN: &str = "is not switched on again behind the tool change or stop";
+const AGAIN: &str = "is not switched on again after the tool change or stop";
 
 fn speed_limit(expected: &Expected, seen: &Seen) -> Option<String> {
     let (must, found) = (expected.spindle.speed_limit?, seen.modes.spindle.speed_limit);
@@ -143,7 +143,7 @@ fn speed_limit(expected: &Expected, seen: &Seen) -> Option<String> {
 /// The spindle that the program has chosen, and the other one.
 fn master(expected: &Expected, seen: &Seen) -> Option<String> {
     let (must, found) = (expected.counted.side?, seen.modes.master);
-    let name = |side: bool| if side { "the second spindle" } else { "the main spindle" };
+    let name = |side: bool| if side { "the sub-spindle" } else { "the main spindle" };
     if found.is_side != Some(must) {
         let found = found.is_side.map_or("no spindle that was chosen", name);
         return Some(format!("the control counts {found}, it should count {}", name(must)));

@@ -175,7 +175,8 @@ impl<'c> Settings<'c> {
     /// tilted frames.
     pub fn frame_clamps(&self) -> Option<[u32; 2]> {
         let clamps = self.commons.read(loc::ROTARY_FRAME_CLAMP)
-            && (self.commons.read(loc::ROTARY_FRAME_OUTPUT) == loc::RotaryFrameOutput::TiltedFrame
+            && (self.commons.read(loc::ROTARY_FRAME_OUTPUT)
+                == loc::RotaryFrameOutput::TiltedWorkPlane
                 || self.commons.read(loc::MOTION_PLANAR));
         let codes = [loc::ROTARY_CLAMP_CODE, loc::ROTARY_UNCLAMP_CODE]
             .map(|at| self.commons.read(at).and_then(|code| u32::try_from(code).ok()));
@@ -221,9 +222,9 @@ impl<'c> Settings<'c> {
     /// The letters of the tables that stay where a block of an author turns them: all but those
     /// that tool center point control, tilted work planes or a mill-turn machine turn.
     fn tables_that_stay(&self) -> [Option<u8>; 2] {
-        let turns_itself = self.commons.read(loc::ROTARY_TIP_OUTPUT)
-            == loc::RotaryTipOutput::ToolTipControl
-            || self.commons.read(loc::ROTARY_FRAME_OUTPUT) == loc::RotaryFrameOutput::TiltedFrame
+        let turns_itself = self.commons.read(loc::ROTARY_TIP_OUTPUT) == loc::RotaryTipOutput::Tcpc
+            || self.commons.read(loc::ROTARY_FRAME_OUTPUT)
+                == loc::RotaryFrameOutput::TiltedWorkPlane
             || self.is_mill_turn();
         [3, 4].map(|axis| {
             let is_table = self.dialect.tables().any(|table| table == axis);

@@ -141,7 +141,7 @@ impl Settings<'_> {
 
     /// Motions under MULTAX/ON are written in tool-tip control.
     pub fn has_tip_control(&self) -> bool {
-        self.commons.read(loc::ROTARY_TIP_OUTPUT) == loc::RotaryTipOutput::ToolTipControl
+        self.commons.read(loc::ROTARY_TIP_OUTPUT) == loc::RotaryTipOutput::Tcpc
     }
 
     /// A rapid block of several axes is not straight, and heads lean the tool.

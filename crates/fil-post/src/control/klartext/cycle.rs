@@ -123,13 +123,13 @@ fn values(control: &Control, cycle: &Cycle, hole: &Hole) -> Result<Values> {
     let second = below(hole.rest())?;
     let digit = axis.length(axis.resolution()).abs() / 2.0;
     if bottom > 0.0 {
-        return PostCode::Family.err("a hole that goes up on the tape (scale.z below zero)");
+        return PostCode::Family.err("a hole that goes up in the program (scale.z below zero)");
     }
     if clear < -digit {
-        return PostCode::Family.err("a R level below the surface of the hole (CLEAR below zero)");
+        return PostCode::Family.err("an R plane below the surface of the hole (CLEAR below zero)");
     }
     if second < clear - digit {
-        return PostCode::Family.err("a return to a level below the R level");
+        return PostCode::Family.err("a return plane below the R plane");
     }
     let z = XYZ[2];
     Ok(Values {
@@ -294,7 +294,7 @@ fn tapping_feed(control: &Control, cycle: &Cycle) -> Result<String> {
 fn pitch(control: &Control, cycle: &Cycle) -> Result<String> {
     let Some(clockwise) = control.klartext.clockwise else {
         return PostCode::Family
-            .err("TAP before SPINDL: the sign of Q239 says which way the thread turns");
+            .err("TAP before SPINDL: the sign of Q239 depends on the spindle direction");
     };
     let digits = PITCH_DIGITS[usize::from(!control.is_metric())];
     let pitch = tap::text(tap::pitch(control, cycle)?, digits)?;

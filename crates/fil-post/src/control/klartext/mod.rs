@@ -158,7 +158,7 @@ fn message(control: &mut Control, text: &str) -> Result<()> {
         text.chars().map(|c| if c.is_control() || c == '~' { ' ' } else { c }).collect();
     if clean.iter().zip(text.chars()).any(|(clean, c)| *clean != c) {
         let message =
-            format!("characters that must not reach the tape in `{}`", text.escape_debug());
+            format!("characters that are not allowed in a program in `{}`", text.escape_debug());
         control.warnings.add(PostCode::IgnoredPart, message);
     }
     for part in clean.chunks(longest) {

@@ -45,7 +45,7 @@ const IN_MACHINE: FunctionCode = FunctionCode::whole(91);
 pub fn rapid(control: &mut Control, motion: &Motion) -> Result<()> {
     if control.commons.read(loc::RAPID_ADDRESS).is_some() {
         return PostCode::Family
-            .err("a word of its own for rapid motions (rapid.address): FMAX has none");
+            .err("a word of its own for rapid moves (rapid.address): FMAX has none");
     }
     ready(control)?;
     if words::axis_words(control, motion)? {
@@ -188,7 +188,7 @@ pub fn ready(control: &mut Control) -> Result<()> {
     let lost = control.state.get(modal::CUTTER_COMP).is_none() && begun;
     if lost && control.compensation_asked() != Compensation::Off {
         let diag = PostCode::CompensationLost
-            .diag("a text that can't be read stands within cutter compensation");
+            .diag("an unreadable foreign block during cutter compensation");
         control.doubt(Source::Author, diag, "taken to be as CUTCOM has it")?;
         control.state.set(modal::CUTTER_COMP, control.compensation_asked());
     }
@@ -217,7 +217,7 @@ fn feed_word(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
 pub(super) fn a_minute(control: &Control, feed: f64) -> Result<f64> {
     match known_speed(control) {
         Some(speed) => Ok(feed * speed * control.upm_factor()),
-        None => PostCode::Family.err("a feed a turn of the spindle while its speed is not known"),
+        None => PostCode::Family.err("feed per revolution while the spindle speed is not known"),
     }
 }
 
@@ -291,9 +291,8 @@ pub(super) fn write(control: &mut Control, turning: AxisSet) -> Result<()> {
 /// One waits.
 pub fn refuse_unbegun(control: &Control) -> Result<()> {
     if control.waiting.has(Function::Compensation) {
-        return PostCode::Family.err(
-            "CUTCOM without a motion behind it: R0, RL and RR are said in the line of a motion",
-        );
+        return PostCode::Family
+            .err("CUTCOM without a move after it: R0, RL and RR are output in the line of a move");
     }
     Ok(())
 }

@@ -16,7 +16,7 @@ const MARK: char = '/';
 pub fn change(control: &mut Control, on: bool) -> Result<()> {
     if on && control.tables.style.skip.is_some_and(|mark| mark != MARK) {
         return PostCode::Family
-            .err("OPSKIP by another mark than /: a TNC reads no other (tape.opskip_char)");
+            .err("OPSKIP with another mark than /: a TNC accepts no other (tape.opskip_char)");
     }
     // A cycle that is defined on one side of the mark would be called on the other.
     control.state.forget(modal::CYCLE_CODE, Source::Post);

@@ -28,8 +28,7 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
     control.block.cause.word = speed_word;
     if let Some(speed) = turn.speed {
         if !control.commons.read(loc::SPINDLE_DIRECT_RPM) {
-            return PostCode::Family
-                .err("S as a code (spindle.direct_rpm): TOOL CALL takes turns a minute");
+            return PostCode::Family.err("S as a code (spindle.direct_rpm): TOOL CALL takes rpm");
         }
         if !matches!(speed, SpindleSpeed::Revolutions(_)) {
             return PostCode::Family.err("SPINDL with a surface speed on a mill");

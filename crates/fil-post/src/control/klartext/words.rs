@@ -77,7 +77,7 @@ fn moves_in_rapid(words: &[(Letter, f64, Cause)]) -> Result<bool> {
     let moves = words.iter().any(|(letter, ..)| AXES.contains(&letter.byte()));
     if !moves && words.iter().any(|(letter, ..)| *letter == G) {
         return PostCode::Family.err(
-            "POSTN: a line of Klartext keeps no motion function, so G without an axis says nothing",
+            "POSTN: a Klartext line has no modal motion function, so G without an axis has no effect",
         );
     }
     let codes: Vec<f64> =
@@ -86,10 +86,10 @@ fn moves_in_rapid(words: &[(Letter, f64, Cause)]) -> Result<bool> {
         ([0.0], false) => Ok(true),
         ([1.0], _) | ([], true) => Ok(false),
         ([0.0], true) => {
-            PostCode::Family.err("POSTN: FMAX stands in the place of F, so G0 and F do not go together")
+            PostCode::Family.err("POSTN: FMAX replaces F, so G0 and F can't be combined")
         }
         ([], false) => PostCode::Family.err(
-            "POSTN: a line of Klartext keeps no motion function; say G,0 for FMAX, or G,1 or F for a feed",
+            "POSTN: a Klartext line has no modal motion function; write G,0 for FMAX, or G,1 or F for a feed",
         ),
         _ => PostCode::Family.err(
             "POSTN: of the G functions only 0 (FMAX) and 1 (a feed) have a meaning in Klartext",

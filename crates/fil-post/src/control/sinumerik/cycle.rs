@@ -135,7 +135,7 @@ fn position(control: &mut Control, moves: bool) -> Result<()> {
     if !moves {
         return Ok(());
     }
-    let code = control.code(loc::RAPID_CODE_XY, "rapid motion")?;
+    let code = control.code(loc::RAPID_CODE_XY, "rapid move")?;
     let cause = control.block.cause;
     motion::motion_code(control, code, true, cause);
     motion::write_motion(control)
@@ -166,13 +166,13 @@ fn levels(control: &Control, cycle: &Cycle, hole: &Hole) -> Result<Levels> {
     let digit = axis.length(axis.resolution()).abs() / 2.0;
     if surface < bottom {
         return PostCode::Family
-            .err("a hole that goes up on the tape (scale.z below zero): DP must lie below RFP");
+            .err("a hole that goes up in the program (scale.z below zero): DP must be below RFP");
     }
     if clear < surface - digit {
-        return PostCode::Family.err("an R level below the surface of the hole (CLEAR below zero)");
+        return PostCode::Family.err("an R plane below the surface of the hole (CLEAR below zero)");
     }
     if rest < clear - digit {
-        return PostCode::Family.err("a return to a level below the R level");
+        return PostCode::Family.err("a return plane below the R plane");
     }
     let text = |value: f64| line::length(control, axis.letter, value).map(|(text, _)| text);
     Ok(Levels {

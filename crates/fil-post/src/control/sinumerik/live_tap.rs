@@ -39,7 +39,7 @@ pub fn tap(control: &mut Control, cycle: &Cycle, hole: &Hole) -> Result<()> {
     }
     let Some(clockwise) = spindle::clockwise(control) else {
         return PostCode::CycleForm
-            .err("a tap, and how the live tool turns is not known; SPINDL before it says it");
+            .err("a tap while the direction of the live tool is not known; put SPINDL before it");
     };
     let Some(asked @ SpindleSpeed::Revolutions(_)) = control.spindle.speed else {
         return PostCode::CycleForm.err("a tap needs the turns of the live tool (SPINDL / RPM)");

@@ -126,7 +126,7 @@ pub fn check_arc(control: &Control) -> Result<()> {
             .err("circle.center: a center counts from the start with its sign, or is absolute");
     }
     if control.helix_words {
-        return PostCode::Family.err("ARCSLP: a helix says no rise of a radian here");
+        return PostCode::Family.err("ARCSLP: a helix has no rise per radian here");
     }
     Ok(())
 }
@@ -164,7 +164,7 @@ fn message(control: &mut Control, text: &str) -> Result<()> {
         .collect();
     if text.chars().any(harmful) {
         let message =
-            format!("characters that must not reach the tape in `{}`", text.escape_debug());
+            format!("characters that are not allowed in a program in `{}`", text.escape_debug());
         control.warnings.add(PostCode::IgnoredPart, message);
     }
     let on_text = control.commons.read(loc::SEQNO_ON_TEXT);

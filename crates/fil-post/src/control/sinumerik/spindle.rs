@@ -111,8 +111,7 @@ pub fn says_feed_mode(control: &mut Control, feed: &Feed) -> Result<bool> {
         (control.spindle.speed.filter(of_surface), usual, code)
     else {
         return PostCode::Family.err(
-            "G94 or G95 under a surface speed: they stand in one group with G96 and would end it; \
-             give the feed a turn, or SPINDL / RPM",
+            "G94 or G95 at constant surface speed: they are in one modal group with G96 and would end it; give the feed per revolution, or SPINDL / RPM",
         );
     };
     let motion = control.block.take();
@@ -133,9 +132,8 @@ fn refuse_in_doubt(control: &Control) -> Result<()> {
         return Ok(());
     }
     PostCode::Family.err_with(
-        "G94 or G95 behind a text that can't be read and gives S, while a surface speed was in \
-         force: they stand in one group with G96 and would end it",
-        "Give SPINDL behind the text, with SMM or RPM.",
+        "G94 or G95 after an unreadable foreign block with S, at constant surface speed: they are in one modal group with G96 and would end it",
+        "Put SPINDL with SMM or RPM after the text.",
     )
 }
 

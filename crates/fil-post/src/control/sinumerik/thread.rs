@@ -34,7 +34,7 @@ pub fn pass(control: &mut Control, motion: &Motion, lead: &Lead, change: f64) ->
         Some(to.map(|to| (to - from).abs()))
     };
     let (Some(x), Some(z)) = (way(0).transpose()?, way(2).transpose()?) else {
-        return PostCode::Family.err("a pass of a thread, and where it begins is not known");
+        return PostCode::Family.err("a pass of a thread from an unknown start point");
     };
     let letter = if x > z + EQUAL { IJK[0] } else { IJK[2] };
     if change == 0.0 {

@@ -30,8 +30,7 @@ impl ToolNames {
         match self.by_number.get(&tool) {
             Some(name) => Ok(name),
             None => PostCode::Family.err(format!(
-                "tool {tool} by its name (control.tool_call): neither TPRINT nor TOOL PATH said one \
-                 before its LOADTL"
+                "tool {tool} by its name (control.tool_call): neither TPRINT nor TOOL PATH named it before its LOADTL"
             )),
         }
     }

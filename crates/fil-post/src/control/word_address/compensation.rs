@@ -71,7 +71,7 @@ fn refuse_plane_of_no_lathe(control: &Control, plane: Plane) -> Result<()> {
     }
     let mut diag = PostCode::WordForm.diag("CUTCOM: a plane of Y, and this lathe turns without Y");
     diag.hint = Some(
-        "Leave the plane out, or say ZXPLAN: the nose of a turning tool is compensated in X and Z."
+        "Leave the plane out, or write ZXPLAN: the nose of a turning tool is compensated in X and Z."
             .into(),
     );
     Err(diag)

@@ -83,18 +83,16 @@ pub fn no_tap(control: &Control) -> &'static str {
              threads (cycle.tap_left_code, cycle.rigid_tap_left_code)"
         }
         Rotation::InDoubt => {
-            "a text that can't be read, or a block that may be skipped, came after the spindle \
-             turned counterclockwise; SPINDL before the tap says how it turns"
+            "the spindle direction is not known after an unreadable or skippable block while it ran counterclockwise; put SPINDL before the tap"
         }
         _ if length_plane::of_motions(control).is_some()
             && !control.tables.mills()
             && control.code_if_any(loc::CYCLE_TAP_CODE).is_some() =>
         {
-            "the tapping cycle needs a plane in which the control counts the lengths of the tool along \
-             other axes; tool.length_const says that they count alike in every plane (SD42940)"
+            "the tapping cycle needs a plane in which the control applies tool lengths along other axes; set tool.length_const if they apply the same way in every plane (SD42940)"
         }
         _ if control.tables.mills() && control.can().cycle_calls => {
-            "a live tool of a SINUMERIK taps where mill_turn.rigid_tap says that SPOS positions it"
+            "tapping with a live tool of a SINUMERIK needs mill_turn.rigid_tap, which positions it by SPOS"
         }
         _ => "the machine has no tapping cycle, and a tap can't be written as single moves",
     }
@@ -187,7 +185,7 @@ pub fn live_hole(
     control.g_of_record(code);
     control
         .because(cycle.due_to(cycle.words.depth), |control| control.word(axis.letter, bottom))?;
-    control.require_on_tape(R, "the R level of a cycle")?;
+    control.require_on_tape(R, "the R plane of a cycle")?;
     control.word(R, 0.0)?;
     live_peck(control, cycle, hole)?;
     dwell_word(control, cycle)?;
@@ -345,7 +343,7 @@ fn level_words(control: &mut Control, cycle: &Cycle, hole: &Hole) -> Result<()> 
         CycleDepthOutput::IncrementalUnsigned => ((bottom - clear).abs(), (clear - start).abs()),
         CycleDepthOutput::Absolute => (bottom, clear),
     };
-    control.require_on_tape(R, "the R level of a cycle")?;
+    control.require_on_tape(R, "the R plane of a cycle")?;
     control.because(cycle.due_to(cycle.words.depth), |control| control.word(axis.letter, z))?;
     control.because(cycle.due_to(cycle.words.clear), |control| control.word(R, r))
 }

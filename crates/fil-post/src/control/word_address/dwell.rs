@@ -100,7 +100,7 @@ fn leave_turns(control: &mut Control) -> Result<()> {
     if control.can().speed_modes_say_feed || !waits_turns(control) {
         return Ok(());
     }
-    let code = control.code(loc::FEED_UPM_CODE, "a feed a minute")?;
+    let code = control.code(loc::FEED_UPM_CODE, "feed per minute")?;
     control.g_of_record(code);
     control.write_block()
 }
@@ -192,10 +192,7 @@ fn turns_a_minute(control: &Control) -> Result<f64> {
         let mut diag = PostCode::NoCode.diag(
             "the machine can't dwell in revolutions, and how fast the spindle turns is not known",
         );
-        diag.hint = Some(
-            "Give the spindle turns a minute (SPINDL / RPM) before it, or the dwell in seconds."
-                .into(),
-        );
+        diag.hint = Some("Put SPINDL / RPM before it, or give the dwell in seconds.".into());
         diag
     })
 }

@@ -44,7 +44,7 @@ pub fn begin(control: &mut Control, turn: &Rotation3<f64>) -> Result<Rotation3<f
 /// # Errors
 /// The machine has no code for it.
 pub fn end(control: &mut Control) -> Result<()> {
-    let code = control.code(loc::ROTARY_FRAME_CANCEL_CODE, "the end of a tilted frame")?;
+    let code = control.code(loc::ROTARY_FRAME_CANCEL_CODE, "the end of a tilted work plane")?;
     let waiting = control.block.take();
     control.g_of_record(code);
     control.write_block()?;

@@ -30,8 +30,7 @@ pub fn with_motion(control: &mut Control, code: FunctionCode) -> Result<()> {
     let alone = ALONE.into_iter().map(FunctionCode::whole).chain([TOOL_CHANGE, change]);
     if alone.into_iter().any(|one| one == code) {
         return PostCode::WordForm.err(format!(
-            "AUXFUN: M{code} with NEXT; a function that stops, ends or steers the program, or \
-             changes the tool, stands in a block of its own"
+            "AUXFUN: M{code} with NEXT; a function that stops, ends or controls the program, or changes the tool, needs its own block"
         ));
     }
     control.m(code);

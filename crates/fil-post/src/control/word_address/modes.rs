@@ -96,7 +96,7 @@ fn say_again(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
         let begun = !control.waiting.has(Function::Compensation);
         if begun && control.compensation_asked() != Compensation::Off {
             let diag = PostCode::CompensationLost
-                .diag("a text that can't be read stands within cutter compensation");
+                .diag("an unreadable foreign block during cutter compensation");
             control.doubt(Source::Author, diag, "taken to be as CUTCOM has it")?;
             control.state.set(modal::CUTTER_COMP, control.compensation_asked());
         } else {

@@ -37,7 +37,7 @@ pub fn rapid(control: &mut Control, motion: &Motion, code: RapidCode, cause: Cau
         RapidCode::Along => loc::RAPID_CODE_Z,
         RapidCode::Turning => loc::ROTARY_RAPID_CODE,
     };
-    let code = control.code(at, "rapid motion")?;
+    let code = control.code(at, "rapid move")?;
     ready(control)?;
     if axis_words(control, motion)? {
         let modal = control.commons.read(loc::RAPID_MODAL) && !says_code_of_turn(control);
@@ -268,8 +268,7 @@ fn warn_off_the_tape(control: &mut Control, number: usize, position: f64) {
     let at = control.axis_position(number).unwrap_or(0.0);
     if (position - at).abs() > OFF_THE_TAPE {
         let letter = control.tables.axis(number).letter;
-        let message =
-            format!("{letter} is off the tape, and the path goes to {letter}{position:.3}");
+        let message = format!("{letter} is not output, but the path goes to {letter}{position:.3}");
         control.warnings.add(PostCode::IgnoredPart, message);
     }
 }

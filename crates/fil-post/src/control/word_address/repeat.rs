@@ -64,7 +64,7 @@ fn refuse_rotary(control: &Control, letter: Letter) -> Result<()> {
         return Ok(());
     }
     PostCode::WordForm
-        .err(format!("REPEAT: {letter} turns the machine, and the points say where it stands"))
+        .err(format!("REPEAT: {letter} is a rotary axis, whose position comes from the points"))
 }
 
 /// Refuses center and radius of an arc.

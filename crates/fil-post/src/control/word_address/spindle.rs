@@ -168,13 +168,12 @@ fn side_spindle(control: &mut Control, side: SideSpindle) -> Result<()> {
         Some(true) => loc::SPINDLE_SIDE_CW_CODE,
         Some(false) => loc::SPINDLE_SIDE_CCW_CODE,
     };
-    let code = control.code(at, "the second spindle")?;
+    let code = control.code(at, "the sub-spindle")?;
     let of_surface =
         matches!(control.spindle.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_)));
     if side.speed.is_some() && of_surface {
         return PostCode::WordForm.err(
-            "SPINDL/SIDE with a speed while the main spindle turns at surface speed, which the \
-             code of turns a minute would end",
+            "SPINDL/SIDE with a speed while the main spindle runs at constant surface speed, which the rpm code would end",
         );
     }
     control.flush_waiting()?;
@@ -298,7 +297,7 @@ fn warn_above_limit(control: &mut Control, speed: Option<SpindleSpeed>) {
         return;
     };
     if speed > limit && !control.tables.mills() {
-        let message = format!("SPINDL: {speed} turns a minute, and a highest speed of {limit}");
+        let message = format!("SPINDL: {speed} rpm, above the active limit of {limit}");
         control.warnings.add(PostCode::AboveSpeedLimit, message);
     }
 }
@@ -312,13 +311,12 @@ fn refuse_speed_of_the_other(control: &Control, turn: &SpindleTurn) -> Result<()
     }
     if control.tables.mill_turn.is_some() {
         return PostCode::MillTurn.err(
-            "SPINDL without a speed behind MODE, where the last S is that of the other spindle",
+            "SPINDL without a speed after MODE, where the last S belongs to the other spindle",
         );
     }
     if control.code_if_any(loc::SPINDLE_SIDE_CW_CODE).is_some() || counted::is_chosen(control) {
-        return PostCode::WordForm.err(
-            "SPINDL without a speed behind SIDE, where the last S is that of the side spindle",
-        );
+        return PostCode::WordForm
+            .err("SPINDL without a speed after SIDE, where the last S belongs to the sub-spindle");
     }
     Ok(())
 }
@@ -330,7 +328,7 @@ fn refuse_without_speed(control: &Control) -> Result<()> {
     if said || control.tables.addresses.required(S)?.is_none() {
         return Ok(());
     }
-    let mut diag = PostCode::WordForm.diag("SPINDL: no speed is given, and none came before");
+    let mut diag = PostCode::WordForm.diag("SPINDL: no speed is given, here or before");
     diag.hint = Some("Give the speed: SPINDL / RPM, 1000, CLW.".into());
     Err(diag)
 }
@@ -354,8 +352,7 @@ pub fn turn_back(control: &mut Control) -> Result<bool> {
 pub fn stand(control: &mut Control) -> Result<bool> {
     let Some(clockwise) = clockwise(control) else {
         return PostCode::CycleForm.err(
-            "a bored hole that is left with the spindle standing, and which way it turns is not \
-             known",
+            "a bored hole that is left with the spindle stopped, while its direction is not known",
         );
     };
     let [.., stop] = codes(control);

@@ -76,7 +76,7 @@ pub fn message(control: &mut Control, text: &str) -> Result<()> {
     let (clean, changed) = clean_message(text, marks.both(), control.tables.style.end_of_block);
     if changed {
         let message =
-            format!("characters that must not reach the tape in `{}`", text.escape_debug());
+            format!("characters that are not allowed in a program in `{}`", text.escape_debug());
         control.warnings.add(PostCode::IgnoredPart, message);
     }
     let clean = control.in_tape_characters(&clean);

@@ -241,8 +241,7 @@ fn linuxcnc(
 fn steps(length: f64, unit: f64, exact: bool) -> Result<String> {
     let steps = (length * unit).round();
     if exact && ((steps / unit - length).abs() > 0.01 * length || steps < 1.0) {
-        return PostCode::Thread
-            .err(format!("{length} can't be said in whole steps of the control"));
+        return PostCode::Thread.err(format!("{length} is not a whole number of control steps"));
     }
     Ok(format!("{steps:.0}"))
 }

@@ -23,7 +23,7 @@ pub fn begin(control: &mut Control, (offset, cause): (i64, Cause)) -> Result<()>
     };
     let tenths = control.commons.int_opt(at);
     let Some(tenths) = tenths.and_then(|tenths| u32::try_from(tenths).ok()) else {
-        return PostCode::NoCode.err(format!("{name} names no function for tool-tip control"));
+        return PostCode::NoCode.err(format!("{name} has no code for TCPC"));
     };
     control.because(cause, |control| {
         control.g_of_record(FunctionCode::tenths(tenths));

@@ -214,7 +214,7 @@ fn length_offset(
     let mut position = Position::default();
     position[2] = z;
     // Without a motion function Z would go as the last motion did.
-    let rapid = control.code(loc::RAPID_CODE_Z, "rapid motion")?;
+    let rapid = control.code(loc::RAPID_CODE_Z, "rapid move")?;
     if before != Some(rapid) {
         let cause = control.block.cause.whole();
         control.block.g(rapid, cause);

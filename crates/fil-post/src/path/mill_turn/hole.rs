@@ -129,7 +129,7 @@ fn feed_of_tap(control: &mut Control, cycle: &Cycle, along: usize) -> Result<Fee
         Rotation::Clockwise => {}
         Rotation::Standing | Rotation::Unsaid => {
             return PostCode::CycleForm
-                .err("a tap while the live tool stands; SPINDL before it turns it");
+                .err("a tap while the live tool is stopped; put SPINDL before it");
         }
         Rotation::Counterclockwise if has_left => {}
         Rotation::Counterclockwise => {
@@ -139,8 +139,9 @@ fn feed_of_tap(control: &mut Control, cycle: &Cycle, along: usize) -> Result<Fee
             );
         }
         Rotation::InDoubt => {
-            return PostCode::NoCode
-                .err("how the live tool turns is not known here; SPINDL before the tap says it");
+            return PostCode::NoCode.err(
+                "the direction of the live tool is not known here; put SPINDL before the tap",
+            );
         }
     }
     let cause = match cycle.feed {

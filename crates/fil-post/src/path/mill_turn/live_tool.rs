@@ -35,7 +35,7 @@ pub(super) fn lie(axis: Vector3<f64>) -> Result<Lie> {
         return Ok(Lie::Radial);
     }
     PostCode::MillTurn.err(
-        "the tool axis lies neither along Z nor square to it, and no axis of the machine leans a tool",
+        "the tool axis is neither parallel nor perpendicular to Z, and the machine can't tilt a tool",
     )
 }
 
@@ -69,7 +69,7 @@ pub fn position_of(
         let most = libm::hypot(point.x, point.y) * half_digit + CENTER;
         if linear.y.abs() > most.max(tables.axis(0).resolution()) {
             return PostCode::MillTurn.err(format!(
-                "the tool would stand {:.4} beside the axis of the spindle, and the machine has no Y",
+                "the tool would be {:.4} off the spindle center line, and the machine has no Y",
                 linear.y
             ));
         }

@@ -215,7 +215,7 @@ fn feed_of(post: &Post, kind: MotionKind) -> Result<Feed> {
     let mm = post.control.require_unit()?.in_mm();
     let value = post.control.commons.dbl_opt(loc::MILL_TURN_POLAR_RAPID).filter(|feed| *feed > 0.0);
     let Some(value) = value else {
-        return PostCode::Polar.err("mill_turn.polar_rapid gives no feed for a rapid motion");
+        return PostCode::Polar.err("mill_turn.polar_rapid gives no feed for a rapid move");
     };
     Ok(Feed { value: value / mm, asked: value / mm, mode: FeedMode::PerMinute, cause })
 }

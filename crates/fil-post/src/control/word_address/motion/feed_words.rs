@@ -44,17 +44,18 @@ pub fn feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
 /// control counts is not known.
 fn refuse_standing(control: &Control) -> Result<()> {
     if counted::is_unknown(control) {
-        return PostCode::FeedStands.err(format!("a feed a turn: {}", counted::WHICH));
+        return PostCode::FeedStands.err(format!("feed per revolution: {}", counted::WHICH));
     }
     let has_other = control.code_if_any(loc::SPINDLE_SIDE_CW_CODE).is_some();
     if !spindle::stands(control) || has_other && !counted::is_chosen(control) {
         return Ok(());
     }
     if control.tables.mill_turn.is_some() {
-        return PostCode::MillTurn
-            .err("a feed a turn of the main spindle, which stands; SPINDL turns it");
+        return PostCode::MillTurn.err(
+            "feed per revolution of the main spindle, which is stopped; start it with SPINDL",
+        );
     }
-    PostCode::FeedStands.err("a feed a turn, and the spindle stands")
+    PostCode::FeedStands.err("feed per revolution while the spindle is stopped")
 }
 
 #[cold]

@@ -73,7 +73,7 @@ fn end_surface_speed(control: &mut Control) -> Result<()> {
         return PostCode::WordForm.err_with(
             "SPINDL of the other spindle while this one turns at surface speed, which would \
              become that of the other",
-            "Stop it first (SPINDL / OFF), or give it turns a minute (SPINDL / RPM).",
+            "Stop it first (SPINDL / OFF), or give its speed in rpm (SPINDL / RPM).",
         );
     }
     if let Some(code) = code_of_turns(control) {
@@ -120,12 +120,11 @@ pub fn check_tap(control: &Control, by_cycle: bool) -> Result<()> {
     let knows = control.can().mode_statements;
     if control.spindle.is_side && by_cycle && !knows {
         return PostCode::CycleForm.err(
-            "a tap of the second spindle by a cycle of the control: which spindle it turns back \
-             no code says",
+            "a canned tapping cycle on the sub-spindle: no code selects the spindle that it reverses",
         );
     }
     Ok(())
 }
 
 /// Why a spindle that nobody knows is none for a thread.
-pub const WHICH: &str = "which spindle the control counts is not known; SPINDL says it";
+pub const WHICH: &str = "the master spindle is not known; put SPINDL before it";

@@ -10,7 +10,7 @@ use crate::operation::SpindleTurn;
 
 /// What is said of what cuts behind STOP or OPSTOP with nothing between that turns the spindle.
 pub const BEHIND_STOP: &str =
-    "behind STOP or OPSTOP, which stop the spindle on some machines; SPINDL turns it again";
+    "after STOP or OPSTOP, which stop the spindle on some machines; start it again with SPINDL";
 
 /// The spindle turns, or it is not known to stand.
 pub fn may_turn(control: &Control) -> bool {
@@ -45,7 +45,9 @@ pub fn may_stand_behind_stop(control: &Control) -> bool {
 /// Why a spindle that does not turn is none for a thread or a tap.
 pub fn why_it_stands<'a>(control: &Control, usual: &'a str) -> &'a str {
     match control.spindle.side_turns {
-        true => "threads and taps of the second spindle are not written, and the main one stands",
+        true => {
+            "threads and taps of the sub-spindle are not supported, and the main spindle is stopped"
+        }
         false => usual,
     }
 }
@@ -104,6 +106,6 @@ pub fn refuse_turning_back(control: &Control, turn: &SpindleTurn) -> Result<()> 
             "SPINDL with a speed and no direction while the spindle turns {way}: the usual \
              direction (spindle.default_code) would turn it back"
         ),
-        "Say CLW or CCLW.",
+        "Write CLW or CCLW.",
     )
 }
