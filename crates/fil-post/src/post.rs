@@ -131,12 +131,13 @@ impl Post {
         self.path.sense.choice == Choice::WouldSettle
     }
 
-    /// Motions are written under tool-tip control: on a machine that writes tilted frames
-    /// too, those under MULTAX/ON.
+    /// Motions are written under tool-tip control: those under MULTAX/ON, and on a machine that
+    /// writes no tilted frames all that the machine turns for.
     #[inline]
     pub(crate) fn writes_tip(&self) -> bool {
         let tables = &self.control.tables;
-        tables.tip_output && (!tables.frame_output || self.path.multax == Some(true))
+        let others = !tables.frame_output && !self.path.is_upright;
+        tables.tip_output && (others || self.path.multax == Some(true))
     }
 
     /// The last CL point, in CL units.

@@ -13,7 +13,7 @@ use super::arc_parts::{
     FULL, Parts, RADIUS_TOLERANCE, SAME_POINT, Step, flat, least_angle, start_angle, sweep,
 };
 use super::position::Solution;
-use super::{feed_rules, frame, rotary};
+use super::{feed_rules, frame, rotary, tip_control};
 use super::{frame_begin, long_arc, position};
 use crate::control::word_address::arc as words;
 use crate::control::{Function, family};
@@ -61,10 +61,14 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     let tool = Some(target.axis).filter(|_| !turns);
     post.path.sense.course.arc(ends.map(|end| arc.axis.cross(&end)), sweep, tool, arc.line);
     let turns_axis = target.axis != post.path.axis.stands;
+    if !turns_axis {
+        tip_control::choose(post, target, true);
+    }
     if post.control.tables.frame_output && !post.writes_tip() {
         let axis = post.path.axis.stands;
         frame_begin::turn_to(post, Target { axis, ..target }, false)?;
     }
+    tip_control::end_outside(post)?;
     let whole =
         if turns_axis { None } else { in_plane(post, arc, start, (radius, sweep), target)? };
     let whole = match whole {

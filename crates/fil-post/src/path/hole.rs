@@ -13,7 +13,7 @@ use fil_machine::modes::FeedMode;
 use super::position::Solution;
 use super::{
     Since, expand, frame_begin, mill_turn, position, rapid, rapid_turn, rotary, scaled_lead,
-    tip_hole, turn_at_top,
+    tip_control, tip_hole, turn_at_top,
 };
 use crate::control::needs::Act;
 use crate::control::place::cross_unknown;
@@ -65,6 +65,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         post.warn(PostCode::SpindleStands, format!("CYCLE {}", spindle::BEHIND_STOP));
     }
     refuse_scaled(post)?;
+    tip_control::choose(post, target, false);
     if post.writes_tip() {
         refuse_less_than_a_digit(&post.control, cycle)?;
         return tip_hole::hole(post, cycle, target);
@@ -73,6 +74,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         (cycle.initial, cycle.above, cycle.in_force) = (None, None, None);
     }
     turn_at_top::go_up(post, target)?;
+    tip_control::end_outside(post)?;
     post.control.family().ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
     post.control.ready_length()?;
     let (position, mut hole, solution) = locate(post, cycle, target)?;

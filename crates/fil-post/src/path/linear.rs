@@ -65,6 +65,7 @@ fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Result<bool> {
     }
     lead_in::before(post, target, kind)?;
     let at_feed = !matches!(kind, MotionKind::Rapid(_));
+    tip_control::choose(post, target, at_feed);
     if !at_feed {
         turn_at_top::go_up(post, target)?;
     }
@@ -74,5 +75,6 @@ fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Result<bool> {
     } else if post.control.tables.frame_output {
         frame_begin::turn_to(post, target, at_feed)?;
     }
+    tip_control::end_outside(post)?;
     Ok(false)
 }

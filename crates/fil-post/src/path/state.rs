@@ -23,6 +23,10 @@ pub struct Path {
     /// MULTAX is on: a GOTO may have an axis of any length. Off: it may have none but
     /// 0,0,1. `None` before the file has said it.
     pub multax: Option<bool>,
+    /// The motion at hand needs no rotary axis away from zero: [`tip_control::choose`].
+    ///
+    /// [`tip_control::choose`]: super::tip_control::choose
+    pub(crate) is_upright: bool,
     /// The last motion, and what has come since.
     pub(crate) last: LastMotion,
     /// Last rotary positions in degrees; `None` before the first motion.

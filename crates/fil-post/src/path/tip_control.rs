@@ -29,10 +29,41 @@ use crate::operation::{Operation, Target};
 use crate::post::Post;
 
 /// What helps where something can't be done under it.
-pub(super) const OUTSIDE: &str = "With rotary.frame_output = 1 moves outside MULTAX/ON are output without TCPC; with rotary.tip_output = 0 all moves are.";
+pub(super) const OUTSIDE: &str = "Outside MULTAX/ON, cuts along Z with the rotary axes at zero are output without TCPC after a tool change or GOHOME, and all moves with rotary.frame_output = 1; with rotary.tip_output = 0 nothing is output under TCPC.";
 
 /// What helps where the tool can't go up before its length is taken off.
 const WHERE_IT_STANDS: &str = "Put a GOTO after the text or the words that move the tool, or set rotary.tip_end_retract = 0 for a control that does not move at G49.";
+
+/// Chooses between tool-tip control and positions of the axes for a motion outside of MULTAX/ON:
+/// where the tool lies as it does with all rotary axes at zero, and they stand there or may turn there
+/// away from the part, the program is that of a machine without them.
+pub(super) fn choose(post: &mut Post, target: Target, at_feed: bool) {
+    let tables = &post.control.tables;
+    if !tables.tip_output || tables.frame_output {
+        return;
+    }
+    let chain = tables.chain();
+    let (_, axis) = position::transformed(post, target);
+    let is_along = (axis.normalize() - chain.tool.into_inner()).norm() < frame::SAME_AXIS;
+    let stands = post.path.rotary.unwrap_or_else(|| position::on_tape(post));
+    let may_turn = post.control.tip.is_away && !at_feed;
+    let is_at_zero = frame::still(stands, [0.0; 2]) || may_turn;
+    post.path.is_upright = is_along && is_at_zero && chain.reaches([0.0; 2]);
+}
+
+/// Ends tool-tip control before a motion that is written without it: the tool is at the part then.
+///
+/// # Errors
+/// As [`end`].
+pub(super) fn end_outside(post: &mut Post) -> Result<()> {
+    let tables = &post.control.tables;
+    if !tables.tip_output || tables.frame_output || post.writes_tip() {
+        return Ok(());
+    }
+    end(&mut post.control)?;
+    post.control.tip.is_away = false;
+    Ok(())
+}
 
 /// Begins tool-tip control before a motion, where it is not on: where the tables stand then is
 /// where the motion turns them from.

@@ -4,6 +4,7 @@ use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 
 use super::{rapid, rapid_lean, rotary, way_home};
+use crate::control_state::modal;
 use crate::operation::Target;
 use crate::operation::motion::Motion;
 use crate::post::Post;
@@ -17,7 +18,8 @@ use crate::post::Post;
 #[cold]
 pub(super) fn go_up(post: &mut Post, target: Target) -> Result<()> {
     let tables = &post.control.tables;
-    if !tables.turns_at_top || tables.frame_output || post.writes_tip() {
+    let goes_on = post.writes_tip() && post.control.state.is(modal::TCP, true);
+    if !tables.turns_at_top || tables.frame_output || goes_on {
         return Ok(());
     }
     if rapid_lean::is_away(&post.control) {
