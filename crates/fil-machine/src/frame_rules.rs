@@ -30,10 +30,25 @@ pub(crate) fn asks_for_frames(commons: &Commons) -> bool {
         || commons.read(loc::MOTION_PLANAR)
 }
 
+/// Clamps without their codes.
+fn clamps(commons: &Commons, found: &mut Vec<Diag>) {
+    let in_frames = asks_for_frames(commons) && commons.read(loc::ROTARY_FRAME_CLAMP);
+    let at_turns = !asks_for_frames(commons) && commons.read(loc::ROTARY_TURN_CLAMP);
+    let codes = [loc::ROTARY_CLAMP_CODE, loc::ROTARY_UNCLAMP_CODE].map(|at| commons.read(at));
+    if (in_frames || at_turns) && (codes.contains(&None) || codes[0] == codes[1]) {
+        found.push(Diag::new(
+            MachineCode::Contradiction,
+            "rotary.frame_clamp and rotary.turn_clamp ask for a code that clamps the rotary axes and \
+             another that releases them (rotary.clamp_code, rotary.unclamp_code)",
+        ));
+    }
+}
+
 /// Contradictions of a machine that writes tilted frames, or the tool tip.
 pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     tip_control(commons, found);
     vectors(commons, found);
+    clamps(commons, found);
     if !asks_for_frames(commons) {
         return;
     }
@@ -44,12 +59,6 @@ pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     let mut add = |message: &str| found.push(Diag::new(MachineCode::Contradiction, message));
     if (chain.tool.into_inner() - Vector3::z()).norm() > 1e-9 {
         add("rotary.frame_output needs the tool along Z when the rotary axes are at zero");
-    }
-    let codes = [loc::ROTARY_CLAMP_CODE, loc::ROTARY_UNCLAMP_CODE].map(|at| commons.read(at));
-    let clamps = commons.read(loc::ROTARY_FRAME_CLAMP);
-    if clamps && (codes.contains(&None) || codes[0] == codes[1]) {
-        add("rotary.frame_clamp asks for a code that clamps the rotary axes and another that \
-             releases them (rotary.clamp_code, rotary.unclamp_code)");
     }
     if is_scaled(commons) {
         add(

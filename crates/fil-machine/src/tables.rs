@@ -67,8 +67,10 @@ pub struct MachineTables {
     pub turns_at_top: bool,
     /// Positions of a rotary axis count within one turn.
     pub within_a_turn: bool,
-    /// The rotary axes are clamped in tilted frames.
+    /// The post clamps the rotary axes: in tilted frames, or after rapid turns.
     pub clamps: bool,
+    /// The rotary axes are clamped after rapid turns.
+    pub clamps_turns: bool,
     /// Words of rotary axes are looked at before they are written.
     pub watches_turns: bool,
     axes: Vec<Axis>,
@@ -185,7 +187,12 @@ impl MachineTables {
         }
         self.axes.iter_mut().zip(self.zero).for_each(|(axis, zero)| axis.count_from(zero));
         self.within_a_turn = self.axes.iter().any(|axis| axis.full_turn() != 0);
-        self.clamps = self.frame_output && commons.read(loc::ROTARY_FRAME_CLAMP);
+        self.clamps_turns = !self.frame_output
+            && self.chain.has_rotary()
+            && self.mill_turn.is_none()
+            && commons.read(loc::ROTARY_TURN_CLAMP);
+        let in_frames = self.frame_output && commons.read(loc::ROTARY_FRAME_CLAMP);
+        self.clamps = in_frames || self.clamps_turns;
         self.watches_turns = self.within_a_turn || self.clamps || self.tip_vectors;
         if self.axes.iter().any(|axis| axis.scale() == 0.0) {
             return MachineCode::SettingValue.err("an output scale is zero");

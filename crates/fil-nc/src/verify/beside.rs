@@ -91,9 +91,9 @@ impl<C: Steps> Verifier<'_, C> {
 
     /// An auxiliary function must stand between the last motion and the next.
     pub(super) fn ask_auxiliary(&mut self, cl_line: u32, code: Option<u32>) {
-        // Codes of clamps have rules of their own where the machine clamps in tilted frames.
+        // Codes of clamps have rules of their own where the post clamps.
         let of_clamps =
-            |code: &u32| self.settings.frame_clamps().is_some_and(|codes| codes.contains(code));
+            |code: &u32| self.settings.clamps_of_post().is_some_and(|codes| codes.contains(code));
         let Some(code) = code.filter(|code| !of_clamps(code)) else { return };
         // The machine's own blocks may stand before it or after it.
         let last = self.last_line();

@@ -1,6 +1,5 @@
-//! Clamps of the rotary axes: none turns while it is held, whoever wrote the code. Where the machine
-//! clamps them in tilted frames each turn is released, and nothing is cut in a frame while they are
-//! free.
+//! Clamps of the rotary axes: none turns while it is held, whoever wrote the code. Where the post
+//! clamps them each turn is released, and nothing is cut in a tilted frame while they are free.
 
 use super::report::{Finding, FindingKind, Report};
 use super::settings::Settings;
@@ -12,8 +11,8 @@ use crate::motion::{Course, Event, Move};
 pub(super) struct Clamps {
     clamp: u32,
     release: u32,
-    /// The machine clamps in tilted frames, and the codes belong to that.
-    in_frames: bool,
+    /// The post clamps the axes by itself, in tilted frames or after rapid turns.
+    of_post: bool,
     /// Y is no axis: it stands for the second one of a plane for which the control turns C.
     y_turns: bool,
     held: Option<bool>,
@@ -30,7 +29,7 @@ impl Clamps {
         Some(Clamps {
             clamp,
             release,
-            in_frames: settings.frame_clamps().is_some(),
+            of_post: settings.clamps_of_post().is_some(),
             y_turns: settings.is_mill_turn() && !settings.written()[1],
             held: None,
             stands: None,
@@ -43,7 +42,7 @@ impl Clamps {
         match event {
             Event::Auxiliary { code, .. } if [self.clamp, self.release].contains(code) => {
                 self.held = Some(*code == self.clamp);
-                self.in_frames
+                self.of_post
             }
             Event::Move(found) => {
                 self.look(found);
@@ -57,11 +56,11 @@ impl Clamps {
         let turns = self.turns(found);
         let cuts = matches!(found.course, Course::Feed | Course::Thread);
         let message = match self.held {
-            Some(false) if cuts && self.in_frames && found.to.tilt.is_some() => {
+            Some(false) if cuts && self.of_post && found.to.tilt.is_some() => {
                 Some(format!("cuts in a tilted work plane before M{}", self.clamp))
             }
             Some(false) => None,
-            None if !self.in_frames => None,
+            None if !self.of_post => None,
             _ if turns => Some(format!("a rotary axis turns without M{}", self.release)),
             _ => None,
         };
@@ -79,8 +78,10 @@ impl Clamps {
         // In a frame nothing turns: its angles are those that the rounded ones stand for.
         let framed = found.to.tilt.is_some() && self.stands.is_some();
         let turns = match self.stands {
-            None => is_known || self.in_frames,
-            Some(at) => (is_known || self.in_frames) && Self::differs(at, to),
+            Some(at) => (is_known || self.of_post) && Self::differs(at, to),
+            // A program of such a post may begin by going up, which turns nothing.
+            None if self.of_post => Self::differs([0.0; 4], to),
+            None => is_known,
         };
         match () {
             () if is_known => self.stands = Some(to),

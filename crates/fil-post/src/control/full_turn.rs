@@ -1,5 +1,5 @@
-//! What comes before words of rotary axes: clamped ones do not turn, those that are clamped in
-//! tilted frames are released, and where positions count from 0 to 360 a word has the sign, or
+//! What comes before words of rotary axes: clamped ones do not turn, those that the post
+//! clamps are released, and where positions count from 0 to 360 a word has the sign, or
 //! the way, that the control takes to it.
 //!
 //! A motion of the post turns an axis by half a turn at most, so where the word before is
@@ -64,7 +64,7 @@ pub(super) fn turn(
 }
 
 /// Refuses a turn of a rotary axis that CLAMP/ON or a text has clamped: the drive would turn
-/// against its brake. A machine that clamps them in tilted frames releases them by itself. In the
+/// against its brake. A machine whose clamps the post works releases them by itself. In the
 /// plane of X and C, and around a cylinder, C turns where X or Y goes.
 ///
 /// # Errors
@@ -81,7 +81,7 @@ pub(crate) fn refuse_clamped(control: &Control, changed: AxisSet) -> Result<()> 
     if turns && !tables.clamps { control.require(Act::ClampedMove) } else { Ok(()) }
 }
 
-/// Releases the rotary axes before they turn, where the machine clamps them in tilted frames;
+/// Releases the rotary axes before they turn, where the post clamps them;
 /// the block under construction comes behind it.
 ///
 /// # Errors
@@ -97,6 +97,15 @@ pub(crate) fn release(control: &mut Control) -> Result<()> {
     // still be held.
     control.rotary.clamped = Some(false).filter(|_| !control.state.may_be_skipped());
     Ok(())
+}
+
+/// Clamps the rotary axes again that a rapid turn has released, where the machine does so.
+///
+/// # Errors
+/// As [`clamp`].
+pub(crate) fn clamp_after_turn(control: &mut Control) -> Result<()> {
+    let is_free = control.rotary.clamped == Some(false);
+    if control.tables.clamps_turns && is_free { clamp(control, true) } else { Ok(()) }
 }
 
 /// Clamps the rotary axes, or releases them.

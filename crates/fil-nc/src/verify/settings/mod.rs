@@ -171,13 +171,16 @@ impl<'c> Settings<'c> {
         self.commons.dbl_opt(loc::ROTARY_AXIS_TOLERANCE).filter(|most| *most > 0.0)
     }
 
-    /// The codes that clamp and release the rotary axes, where the machine clamps them in
-    /// tilted frames.
-    pub fn frame_clamps(&self) -> Option<[u32; 2]> {
-        let clamps = self.commons.read(loc::ROTARY_FRAME_CLAMP)
-            && (self.commons.read(loc::ROTARY_FRAME_OUTPUT)
-                == loc::RotaryFrameOutput::TiltedWorkPlane
-                || self.commons.read(loc::MOTION_PLANAR));
+    /// The codes that clamp and release the rotary axes, where the post clamps them: in tilted
+    /// work planes, or after rapid turns.
+    pub fn clamps_of_post(&self) -> Option<[u32; 2]> {
+        let in_frames = self.commons.read(loc::ROTARY_FRAME_OUTPUT)
+            == loc::RotaryFrameOutput::TiltedWorkPlane
+            || self.commons.read(loc::MOTION_PLANAR);
+        let clamps = match in_frames {
+            true => self.commons.read(loc::ROTARY_FRAME_CLAMP),
+            false => self.commons.read(loc::ROTARY_TURN_CLAMP),
+        };
         let codes = [loc::ROTARY_CLAMP_CODE, loc::ROTARY_UNCLAMP_CODE]
             .map(|at| self.commons.read(at).and_then(|code| u32::try_from(code).ok()));
         Some([codes[0]?, codes[1]?]).filter(|_| clamps)
