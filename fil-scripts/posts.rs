@@ -39,6 +39,7 @@ macro_rules! ready {
 
 ready![
     "brother-mill",
+    "centroid-mill",
     "fanuc-5x-head",
     "fanuc-5x-tables",
     "fanuc-lathe",
@@ -59,6 +60,7 @@ ready![
     "linuxcnc-mill",
     "mach3-mill",
     "mach4-mill",
+    "masso-mill",
     "mazak-mill",
     "mitsubishi-mill",
     "okuma-lathe",
@@ -68,6 +70,7 @@ ready![
     "sinumerik-840d",
     "sinumerik-lathe",
     "sinumerik-mill-turn",
+    "syntec-mill",
     "tormach-mill",
 ];
 

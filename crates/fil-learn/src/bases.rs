@@ -20,9 +20,11 @@ pub enum Bases {
 }
 
 impl Bases {
-    /// All ready posts.
+    /// All ready posts, the generic mill first: of posts that write the same it is the one to name.
     pub fn all() -> Bases {
-        Bases::Ready(ready::READY.iter().map(|post| post.name.into()).collect())
+        let mut names: Vec<String> = ready::READY.iter().map(|post| post.name.into()).collect();
+        names.sort_by_key(|name| name != ready::GENERIC_MILL);
+        Bases::Ready(names)
     }
 }
 

@@ -59,6 +59,8 @@ struct ToolEntry {
     length: Option<f64>,
     name: Option<String>,
     totals: Totals,
+    /// It cuts whole threads, whose points are not counted.
+    threads: bool,
 }
 
 impl ToolEntry {
@@ -70,7 +72,7 @@ impl ToolEntry {
         let mut line = format!("T{}", self.number);
         line.push_str(&measure("D", self.diameter));
         line.push_str(&measure("CR", self.corner));
-        if let Some(reach) = &self.totals.reach {
+        if let Some(reach) = self.totals.reach.as_ref().filter(|_| !self.threads) {
             line.push_str(&format!(" - ZMIN={}", length(reach.min[2])));
         }
         if let Some(name) = &self.name {
@@ -171,6 +173,10 @@ impl Overview {
         let seconds = counted.other_seconds;
         if matches!(record.major, words::LOADTL | words::LOAD | words::TURRET) {
             self.change_tool(record, cl_record);
+        }
+        let is_thread = matches!(record.major, words::THREAD | words::OP);
+        if let Some(tool) = self.tool.filter(|_| is_thread && counted.motion.is_none()) {
+            self.tools[tool].threads = true;
         }
         if seconds > 0.0 {
             self.total.other_seconds += seconds;

@@ -89,17 +89,24 @@ fn cl_files_become_the_same_path() {
 /// controls, dwells in milliseconds, and G86, which needs a dwell there.
 const NOT_ITS: [&str; 6] = ["G154", "G54.1", "G84.2", "G4 ", "G82 ", "G86 "];
 
+/// Words of other controls, and what the interpreter has for them.
+const SAID_OTHERWISE: [(&str, &str); 2] = [("G70 ", "G20 "), ("G71 ", "G21 ")];
+
 /// The programs of the ready mills, as far as the interpreter can read them.
 #[test]
 fn programs_of_the_ready_mills_make_the_path_of_their_cl_file() {
     let Some(program) = rs274::program() else { return };
     let posts = ["fanuc-mill", "haas-mill", "mazak-mill", "mitsubishi-mill", "brother-mill"];
-    let posts = posts.into_iter().chain(["mach3-mill", "mach4-mill"]);
+    let posts = posts.into_iter().chain(["mach3-mill", "mach4-mill"]).map(|ready| (ready, ready));
+    let alike = [("syntec-mill", "fanuc-mill"), ("centroid-mill", "fanuc-mill")];
     let programs: Vec<_> = posts
-        .flat_map(|ready| mills_taken_by(ready).into_iter().map(move |cl| (ready, cl)))
+        .chain(alike)
+        .chain([("masso-mill", "mach3-mill")])
+        .flat_map(|(ready, like)| mills_taken_by(like).into_iter().map(move |cl| (ready, cl)))
         .collect();
     let is_judged = |ready: &str, cl: &Path| {
         let nc = String::from_utf8(post_with(ready, cl)).unwrap();
+        let nc = SAID_OTHERWISE.iter().fold(nc, |nc, (theirs, its)| nc.replace(theirs, its));
         if NOT_ITS.iter().any(|word| nc.contains(word)) {
             return false;
         }

@@ -19,12 +19,14 @@ use fil_diag::Diag;
 use fil_machine::Letter;
 use fil_machine::axis_chain::{AxisChain, Carries};
 use fil_machine::commons::{Commons, EMPTY, Kind};
+use fil_machine::effects::{Effect, Effects};
 use fil_machine::letter::letters;
 use fil_machine::locations::Location;
 use fil_machine::tape_style;
 use fil_text::CodePage;
 
 use crate::forward::Forward;
+use crate::text::Block;
 pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
 pub use family::Family;
 use g_codes::Functions;
@@ -184,6 +186,8 @@ pub struct Dialect {
     pub(crate) forms: Forms,
     /// Spindles and cycles of a lathe.
     pub(crate) turning: Turning,
+    /// What functions of the shop do.
+    effects: Effects,
 }
 
 /// The settings of a machine, by their names.
@@ -271,6 +275,7 @@ impl Dialect {
             codes: Codes { functions, auxiliaries: Auxiliaries::new(&settings) },
             forms,
             turning: Turning::new(&settings),
+            effects: commons.effects().clone(),
         })
     }
 
@@ -301,6 +306,20 @@ impl Dialect {
     /// and that steers no program is [`Auxiliary::Other`].
     pub fn auxiliary(&self, code: i64) -> Auxiliary {
         self.codes.auxiliaries.get(code)
+    }
+
+    /// The machine says that a block changes nothing that a program counts on, as one that smooths
+    /// the path does. An M word says it of itself alone.
+    pub(crate) fn changes_nothing(&self, block: &Block) -> bool {
+        if self.effects.is_empty() {
+            return false;
+        }
+        let words = block.words.iter().filter(|word| word.letter != b'N');
+        let text: String = words
+            .map(|word| format!("{}{}", char::from(word.letter), word.number.value()))
+            .collect();
+        let found = self.effects.of(&text);
+        found.is_some_and(|found| found.rule.effect == Effect::Nothing && !found.is_function)
     }
 
     /// The control does this.

@@ -39,6 +39,9 @@ impl State<'_> {
     pub(super) fn run(&mut self, block: &Block) -> Result<Outcome, Fault> {
         self.line = block.line;
         self.events.clear();
+        if self.dialect.changes_nothing(block) {
+            return Ok(Outcome::Next);
+        }
         let mut words = std::mem::take(&mut self.words);
         words.read(block, self.dialect, self.metric)?;
         let outcome = self.follow(&mut words)?;
