@@ -3,3 +3,4 @@
 mod half_typed;
 mod preview;
 mod protocol;
+mod typed;

@@ -3,9 +3,11 @@
 use std::fs;
 use std::thread;
 
-use filpost_lsp::{Server, serve};
+use filpost_lsp::{Fault, Server, serve};
 use lsp_server::{Connection, Message, Notification, Request};
 use serde_json::{Value, json};
+
+use crate::typed;
 
 /// A script with `|` where the editor's cursor stands.
 struct Editor {
@@ -37,6 +39,7 @@ impl Editor {
         let document = json!({ "uri": uri, "languageId": language, "version": 1, "text": text });
         let told =
             server.notification("textDocument/didOpen", &json!({ "textDocument": document }));
+        told.iter().for_each(|(method, params)| typed::notification(method, params));
         let told = told.into_iter().map(|(_, params)| params).collect();
         Editor { server, uri: uri.to_string(), told, line, character }
     }
@@ -51,7 +54,13 @@ impl Editor {
 
     fn ask(&mut self, method: &str) -> Value {
         let params = self.params();
-        self.server.request(method, &params).unwrap_or_else(|fault| panic!("{method}: {fault:?}"))
+        self.request(method, &params).unwrap_or_else(|fault| panic!("{method}: {fault:?}"))
+    }
+
+    fn request(&mut self, method: &str, params: &Value) -> Result<Value, Fault> {
+        let answer = self.server.request(method, params)?;
+        typed::answer(method, &answer);
+        Ok(answer)
     }
 
     fn labels(&mut self) -> Vec<String> {
@@ -69,7 +78,7 @@ impl Editor {
         let mut params = self.params();
         let at = params["position"].clone();
         params["range"] = json!({ "start": at, "end": at });
-        let found = self.server.request("textDocument/codeAction", &params).expect("answered");
+        let found = self.request("textDocument/codeAction", &params).expect("answered");
         found.as_array().expect("a list").clone()
     }
 
@@ -253,7 +262,7 @@ fn a_rename_changes_all_places_or_says_why_not() {
     let mut params = editor.params();
     let mut rename = |editor: &mut Editor, name: &str| {
         params["newName"] = json!(name);
-        editor.server.request("textDocument/rename", &params)
+        editor.request("textDocument/rename", &params)
     };
     let edit = rename(&mut editor, "depth1").expect("renamed");
     let plain = text.replacen('|', "", 1);
@@ -285,8 +294,7 @@ fn symbols_folds_hints_and_tokens() {
         .collect();
     assert_eq!(names, ["TAB", "CIMFIL/ON,GOTO", "DMY", "MAKE"], "{symbols}");
     assert_eq!(symbols[3]["children"][0]["name"], "LEND", "{symbols}");
-    let found =
-        editor.server.request("workspace/symbol", &json!({ "query": "mak" })).expect("found");
+    let found = editor.request("workspace/symbol", &json!({ "query": "mak" })).expect("found");
     assert_eq!(found[0]["name"], "MAKE", "{found}");
     let folds = editor.ask("textDocument/foldingRange");
     let lines: Vec<[u64; 2]> = folds
@@ -405,7 +413,7 @@ fn symbols_of_the_folder_are_found_in_files_that_are_not_open() {
     let own = "NEWNAME=MACRO\nTERMAC\nFINI\n";
     let mut editor = Editor::open_in(&params, &uri("open.fil"), "fil", own);
     let mut names = |query: &str| -> Vec<String> {
-        let found = editor.server.request("workspace/symbol", &json!({ "query": query }));
+        let found = editor.request("workspace/symbol", &json!({ "query": query }));
         let found = found.expect("answered");
         let name = |symbol: &Value| {
             let file = symbol["location"]["uri"].as_str().expect("a file");
@@ -428,7 +436,7 @@ fn symbols_of_the_folder_are_found_in_files_that_are_not_open() {
     write("posts/mill.fil", "MILLTWO=MACRO\nTERMAC\nFINI\n");
     let saved = json!({ "textDocument": { "uri": uri("posts/mill.fil") } });
     editor.server.notification("textDocument/didSave", &saved);
-    let found = editor.server.request("workspace/symbol", &json!({ "query": "MILL" }));
+    let found = editor.request("workspace/symbol", &json!({ "query": "MILL" }));
     assert_eq!(found.expect("answered")[0]["name"], "MILLTWO");
 }
 
@@ -622,7 +630,9 @@ fn a_session_over_a_connection() {
     let answer = || editor.receiver.recv().expect("an answer");
     request(1, "initialize", json!({ "capabilities": {} }));
     let Message::Response(ready) = answer() else { panic!("no response") };
-    assert_eq!(ready.result.expect("capabilities")["capabilities"]["hoverProvider"], true);
+    let capabilities = ready.response_result.expect("capabilities");
+    assert_eq!(capabilities["capabilities"]["hoverProvider"], true);
+    typed::answer("initialize", &capabilities);
     notify("initialized", json!({}));
     let document =
         json!({ "uri": "untitled:a.fil", "languageId": "fil", "version": 1, "text": "NN=1\n" });
@@ -631,10 +641,10 @@ fn a_session_over_a_connection() {
     assert_eq!(told.method, "textDocument/publishDiagnostics");
     request(2, "textDocument/unheardOf", json!({ "textDocument": { "uri": "untitled:a.fil" } }));
     let Message::Response(refused) = answer() else { panic!("no response") };
-    assert_eq!(refused.error.expect("an error").code, -32601);
+    assert_eq!(refused.response_result.expect_err("an error").code, -32601);
     request(3, "shutdown", Value::Null);
     let Message::Response(done) = answer() else { panic!("no response") };
-    assert!(done.error.is_none());
+    assert!(done.response_result.is_ok());
     notify("exit", Value::Null);
     thread.join().expect("no panic").expect("a clean end");
 }
