@@ -53,13 +53,18 @@ fn read(folder: &Path, file: &str) -> String {
 #[test]
 fn a_new_word_is_in_all_its_places() {
     let (folder, mut tree) = copy();
-    let args = word::Args { name: "breset".into() };
-    assert!(word::write(&mut tree, &args).is_err(), "no word of the vocabulary");
-    let told = word::write(&mut tree, &word::Args { name: "chuck".into() }).unwrap();
+    let args = |name: &str, minors: &[&str]| word::Args {
+        name: name.into(),
+        minors: minors.iter().map(|minor| minor.to_string()).collect(),
+    };
+    assert!(word::write(&mut tree, &args("breset", &[])).is_err(), "no word of the vocabulary");
+    assert!(word::write(&mut tree, &args("chuck", &["opne"])).is_err(), "no word either");
+    let told = word::write(&mut tree, &args("chuck", &["open", "ON"])).unwrap();
     for (file, line) in [
         ("crates/fil-post/src/words/mod.rs", "pub mod chuck;"),
         ("crates/fil-post/src/dispatch.rs", "    (w::CHUCK, I(word::chuck::handle)),"),
         ("crates/fil-nc/src/verify/cl_path/words.rs", "    (w::CHUCK, Ignored(NO_PROGRAM)),"),
+        ("crates/fil-cl/src/words.rs", "        OPEN,"),
         ("docs/compat.md", "| CHUCK | refused: what it does is not known | our own | - |"),
         ("docs/SUMMARY.md", "  - [CHUCK](reference/word-CHUCK.md)"),
         ("tests/reference/words.txt", "# CHUCK"),
@@ -71,7 +76,7 @@ fn a_new_word_is_in_all_its_places() {
         assert!(folder.path().join(file).is_file(), "{file}");
     }
     syn::parse_file(&read(folder.path(), "crates/fil-post/src/words/chuck.rs")).unwrap();
-    assert!(word::write(&mut tree, &word::Args { name: "CHUCK".into() }).is_err(), "it is there");
+    assert!(word::write(&mut tree, &args("CHUCK", &[])).is_err(), "it is there");
 }
 
 #[test]

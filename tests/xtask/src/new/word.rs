@@ -7,10 +7,16 @@ use super::tree::{Tree, with_line};
 pub struct Args {
     /// The major word, such as CLAMP; `crates/fil-cl/data/vocabulary.tsv` has it
     pub name: String,
+    /// Minor words that it takes, such as ON OFF
+    pub minors: Vec<String>,
 }
 
 const MODULES: &str = "crates/fil-post/src/words/mod.rs";
 const WORDS: &str = "crates/fil-cl/src/words.rs";
+
+/// Where the major and the minor words of [`WORDS`] end.
+const MAJOR_ENDS: &str = "\n    }\n    EITHER";
+const MINOR_ENDS: &str = "\n    }\n}";
 
 /// Writes the files.
 ///
@@ -19,8 +25,11 @@ const WORDS: &str = "crates/fil-cl/src/words.rs";
 pub fn write(tree: &mut Tree, args: &Args) -> Result<String, String> {
     let name = args.name.to_ascii_uppercase();
     let module = name.to_ascii_lowercase();
+    let minors: Vec<String> = args.minors.iter().map(|word| word.to_ascii_uppercase()).collect();
     refuse(tree, &name)?;
-    declare(tree, &name)?;
+    minors.iter().try_for_each(|minor| is_in_vocabulary(tree, minor))?;
+    declare(tree, &name, MAJOR_ENDS)?;
+    minors.iter().try_for_each(|minor| declare(tree, minor, MINOR_ENDS))?;
     let file = format!("crates/fil-post/src/words/{module}.rs");
     tree.create(&file, &handler(&name))?;
     tree.change(MODULES, |text| with_line(text, "", "pub mod ", &format!("pub mod {module};")))?;
@@ -55,20 +64,25 @@ pub fn write(tree: &mut Tree, args: &Args) -> Result<String, String> {
     ))
 }
 
-fn refuse(tree: &Tree, name: &str) -> Result<(), String> {
-    let listed = |file: &str| -> Result<bool, String> {
-        let text = tree.read(file)?;
-        Ok(text.lines().any(|line| line.split('\t').next() == Some(name)))
-    };
-    if !listed("crates/fil-cl/data/vocabulary.tsv")? {
-        return Err(format!(
-            "crates/fil-cl/data/vocabulary.tsv has no word {name}: add it with its code"
-        ));
+fn is_listed(tree: &Tree, file: &str, name: &str) -> Result<bool, String> {
+    let text = tree.read(file)?;
+    Ok(text.lines().any(|line| line.split('\t').next() == Some(name)))
+}
+
+fn is_in_vocabulary(tree: &Tree, name: &str) -> Result<(), String> {
+    const VOCABULARY: &str = "crates/fil-cl/data/vocabulary.tsv";
+    match is_listed(tree, VOCABULARY, name)? {
+        true => Ok(()),
+        false => Err(format!("{VOCABULARY} has no word {name}: add it with its code")),
     }
+}
+
+fn refuse(tree: &Tree, name: &str) -> Result<(), String> {
+    is_in_vocabulary(tree, name)?;
     if tree.read("crates/fil-post/src/dispatch.rs")?.contains(&format!("(w::{name}, ")) {
         return Err(format!("{name} has a handler"));
     }
-    if listed("crates/fil-post/data/no-effect.tsv")? {
+    if is_listed(tree, "crates/fil-post/data/no-effect.tsv", name)? {
         return Err(format!(
             "{name} is a row of crates/fil-post/data/no-effect.tsv: take it out first"
         ));
@@ -76,8 +90,8 @@ fn refuse(tree: &Tree, name: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Gives the word a constant, where it has none.
-fn declare(tree: &mut Tree, name: &str) -> Result<(), String> {
+/// Gives the word a constant in the group that ends so, where it has none.
+fn declare(tree: &mut Tree, name: &str, group_ends: &str) -> Result<(), String> {
     let text = tree.read(WORDS)?;
     let is_there = |line: &str| {
         line.starts_with("        ") && line.split(',').any(|word| word.trim() == name)
@@ -86,7 +100,8 @@ fn declare(tree: &mut Tree, name: &str) -> Result<(), String> {
         return Ok(());
     }
     tree.change(WORDS, |text| {
-        let end = text.find("\n    }\n    EITHER")?;
+        let words = text.find("\nwords! {")?;
+        let end = words + text[words..].find(group_ends)?;
         Some(format!("{}\n        {name},{}", &text[..end], &text[end..]))
     })
 }
