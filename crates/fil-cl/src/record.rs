@@ -107,7 +107,7 @@ pub enum WordView<'a> {
     Word {
         /// Its name, upper case.
         name: &'a str,
-        /// Its integer code.
+        /// Its integer code, without a unit.
         code: f64,
     },
     /// A text.
@@ -121,9 +121,9 @@ pub enum WordView<'a> {
 pub struct Circle {
     /// Center, in the unit of the CL file.
     pub center: [f64; 3],
-    /// Axis as written, not normalised.
+    /// Axis in the coordinates of the part, as written: a direction without a unit, not normalised.
     pub axis: [f64; 3],
-    /// Radius, where the CL file gives it.
+    /// Radius in the unit of the CL file, where the file gives it.
     pub radius: Option<f64>,
 }
 
@@ -172,7 +172,7 @@ impl Record {
     }
 
     /// Word `n` (from 1) as a number: a vocabulary word gives its code; `None`
-    /// for a text, an empty slot and past the end.
+    /// for a text, an empty slot and past the end. Its unit is that of the statement.
     pub fn value(&self, n: usize, vocab: &Vocabulary) -> Option<f64> {
         match n {
             1 => Some(f64::from(self.number)),
@@ -245,7 +245,7 @@ impl Record {
         self.data_word(self.find_minor(FIRST_DATA, id)? + 1)
     }
 
-    /// The number after the first `id`.
+    /// The number after the first `id`, in the unit that the statement gives it.
     pub fn number_after(&self, id: WordId) -> Option<f64> {
         match self.after(id)? {
             Word::Number(value) => Some(value),
@@ -295,13 +295,15 @@ impl Record {
         Word::Text { start, len: text.len() as u32 }
     }
 
-    /// X, Y, Z of a motion record; of a GODLTA the increments.
+    /// X, Y, Z of a motion record in the unit of the CL file and the coordinates of the part; of a
+    /// GODLTA the increments.
     #[inline]
     pub fn point(&self) -> Option<[f64; 3]> {
         if self.kind == kind::MOTION { self.numbers(6) } else { None }
     }
 
-    /// I, J, K of a motion record that has a tool axis.
+    /// I, J, K of a motion record that has a tool axis: from the tip to the spindle in the
+    /// coordinates of the part, without a unit and as written.
     #[inline]
     pub fn axis(&self) -> Option<[f64; 3]> {
         if self.kind == kind::MOTION { self.numbers(9) } else { None }

@@ -169,7 +169,7 @@ impl Vocabulary {
         if self.is_known(id) { None } else { nearest(self.name(id), names) }
     }
 
-    /// The integer code. Of the published ones the first of: gpost, PostWorks,
+    /// The integer code, without a unit. Of the published ones the first of: gpost, PostWorks,
     /// APT-AC, APT360, NCL.
     pub fn code(&self, id: WordId) -> f64 {
         self.entries[id.index()].code

@@ -16,7 +16,7 @@ pub enum Argument<'a> {
 }
 
 impl<'a> Argument<'a> {
-    /// The number, where it is one that is not EMPTY.
+    /// The number, where it is one that is not EMPTY; its unit is that of the script.
     pub fn number(self) -> Option<f64> {
         match self {
             Argument::Number(number) if number != EMPTY => Some(number),

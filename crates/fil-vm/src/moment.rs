@@ -65,12 +65,12 @@ impl Moment {
         })
     }
 
-    /// Year, month and day.
+    /// Year, month and day, month and day from 1.
     pub fn date(self) -> [f64; 3] {
         [f64::from(self.year), f64::from(self.month), f64::from(self.day)]
     }
 
-    /// Hour, minute and second.
+    /// Hours, minutes and seconds of the day.
     pub fn time(self) -> [f64; 3] {
         [f64::from(self.hour), f64::from(self.minute), f64::from(self.second)]
     }

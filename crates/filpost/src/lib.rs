@@ -32,7 +32,9 @@
 //!   [`Block`]s, each with the CL record, the FIL lines and the words that made it.
 //!   [`Run::post_files`] goes from file to file. The methods named `stream` write while they post;
 //!   after an error half a program has been written. [`Run::blocks`] hands out block by block.
-//! - [`Run::verify`] compares an NC program with the CL file that it should come from.
+//! - [`Run::verify`] compares an NC program with the CL file that it should come from,
+//!   [`Run::post_audited`] says what scripts changed in it, and [`Program::simulate`] cuts stock
+//!   with it.
 //! - [`Error`] holds [`Diag`]s: code, sentence, places, hint. All that is wrong with a machine, with
 //!   FIL files or with a CL file is told at once.
 //!
@@ -59,7 +61,6 @@
 #![deny(missing_docs)]
 
 mod allow;
-#[doc(hidden)]
 pub mod audit;
 mod blocks;
 mod builder;
@@ -125,7 +126,6 @@ mod script_files;
 mod script_files;
 #[doc(hidden)]
 pub mod select;
-#[doc(hidden)]
 pub mod simulate;
 mod source;
 mod spilled;

@@ -11,6 +11,7 @@ use fil_text::CodePage;
 use crate::blocks::Block;
 use crate::engine::Engine;
 use crate::error::Error;
+use crate::map;
 use crate::memory::Memory;
 use crate::passes::Pass;
 use crate::pending::PendingFiles;
@@ -38,7 +39,7 @@ use crate::undecided;
 pub struct Posted {
     nc: Vec<u8>,
     code_page: CodePage,
-    report: Report,
+    pub(crate) report: Report,
     blocks: Vec<Block>,
 }
 
@@ -76,7 +77,7 @@ impl Posted {
     }
 }
 
-impl Run<'_> {
+impl<'o> Run<'o> {
     /// Posts the text of a CL file and gives the whole program, or an error and no program. Where
     /// FIL or a list of tools asks for totals of the program, the text is gone through twice, and
     /// functions of the embedding program are called in both passes.
@@ -102,7 +103,7 @@ impl Run<'_> {
         records: impl IntoIterator<Item = Record, IntoIter: Send>,
     ) -> Result<Posted, Error> {
         let memory = Memory::new(records.into_iter(), vocabulary, &self.program, &self.name())?;
-        let (posted, pending) = self.post_whole(Stream::Memory(memory), Pass::Only)?;
+        let (posted, pending, _) = self.post_whole(Stream::Memory(memory), Pass::Only, None)?;
         pending.commit()?;
         Ok(posted)
     }
@@ -113,20 +114,26 @@ impl Run<'_> {
         let reader = Reader::seekable(Cursor::new(cl), &self.name(), self.options());
         let records = Stream::Cl(Box::new(reader));
         let pass = Pass::writing(first, self.program.has_script());
-        let (mut posted, pending) = self.post_whole(records, pass)?;
+        let (mut posted, pending, _) = self.post_whole(records, pass, None)?;
         again.warn_of_undecided(cl, &mut posted.report)?;
         pending.commit()?;
         Ok(posted)
     }
 
-    fn post_whole(self, records: Stream<'_>, pass: Pass) -> Result<(Posted, PendingFiles), Error> {
+    /// The program, files of scripts that wait for their names, and the map to be ended.
+    pub(crate) fn post_whole(
+        self,
+        records: Stream<'_>,
+        pass: Pass,
+        map: Option<map::Writer<'o>>,
+    ) -> Result<(Posted, PendingFiles, Option<map::Writer<'o>>), Error> {
         let code_page = self.program.nc_page();
         let observed = self.is_observed();
-        let mut engine = Engine::new(self.begin(None, pass), records, observed);
+        let mut engine = Engine::new(self.begin(map, pass), records, observed);
         let mut nc = Vec::new();
         let (report, pending) = engine.run(&mut nc)?;
         let blocks = engine.take_kept();
-        Ok((Posted { nc, code_page, report, blocks }, pending))
+        Ok((Posted { nc, code_page, report, blocks }, pending, engine.take_map()))
     }
 
     /// What is needed to post the same input again.

@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 
 use quote::ToTokens;
-use syn::{Attribute, Fields, ImplItem, Item, TraitItem, Visibility};
+use syn::{Attribute, Fields, ImplItem, Item, Meta, TraitItem, Visibility};
 
 use crate::code::modules::{Crate, Module, ModulePath};
 use crate::code::paths::of_use;
@@ -25,11 +25,16 @@ const INNER: &[&str] = &[
     "fil-machine",
     "fil-nc",
     "fil-post",
+    "fil-stock",
     "fil-syntax",
     "fil-text",
     "fil-vm",
     FACADE,
 ];
+
+/// Items of the API, a line each, with their doc comments; that of a field begins with that of its
+/// type.
+type Lines = BTreeMap<String, String>;
 
 /// Where an item is defined: crate and module.
 type Home<'s> = (&'s str, &'s ModulePath);
@@ -80,7 +85,7 @@ impl Sources {
     }
 
     /// The lines of an item that is public under a path.
-    fn item(&self, shown: &str, (krate, module): Home<'_>, name: &str, out: &mut BTreeSet<String>) {
+    fn item(&self, shown: &str, (krate, module): Home<'_>, name: &str, out: &mut Lines) {
         let Some(home) = self.module(krate, module) else { return };
         for item in &home.items {
             define(shown, item, name, out);
@@ -97,14 +102,22 @@ impl Sources {
 }
 
 /// The lines of an item's own definition.
-fn define(shown: &str, item: &Item, name: &str, out: &mut BTreeSet<String>) {
+fn define(shown: &str, item: &Item, name: &str, out: &mut Lines) {
     match item {
         Item::Struct(item) if item.ident == name => {
-            out.insert(format!("struct {shown}{}{}", tidy(&item.generics), told(&item.attrs)));
-            fields(shown, &item.fields, true, out);
+            let docs = docs(&item.attrs);
+            fields(shown, &item.fields, &docs, true, out);
+            out.insert(
+                format!("struct {shown}{}{}", tidy(&item.generics), told(&item.attrs)),
+                docs,
+            );
         }
         Item::Enum(item) if item.ident == name => {
-            out.insert(format!("enum {shown}{}{}", tidy(&item.generics), told(&item.attrs)));
+            let whole = docs(&item.attrs);
+            out.insert(
+                format!("enum {shown}{}{}", tidy(&item.generics), told(&item.attrs)),
+                whole.clone(),
+            );
             for variant in item.variants.iter().filter(|variant| !is_hidden(&variant.attrs)) {
                 let path = format!("{shown}::{}", variant.ident);
                 let types: Vec<String> = match &variant.fields {
@@ -116,66 +129,69 @@ fn define(shown: &str, item: &Item, name: &str, out: &mut BTreeSet<String>) {
                 } else {
                     format!("({})", types.join(", "))
                 };
-                out.insert(format!("variant {path}{types}{}", told(&variant.attrs)));
+                let docs = format!("{whole} {}", docs(&variant.attrs));
                 if let Fields::Named(_) = variant.fields {
-                    fields(&path, &variant.fields, false, out);
+                    fields(&path, &variant.fields, &docs, false, out);
                 }
+                out.insert(format!("variant {path}{types}{}", told(&variant.attrs)), docs);
             }
         }
         Item::Trait(item) if item.ident == name => {
-            out.insert(format!("trait {shown}{}", tidy(&item.generics)));
+            out.insert(format!("trait {shown}{}", tidy(&item.generics)), docs(&item.attrs));
             for item in &item.items {
                 if let TraitItem::Fn(item) = item {
-                    out.insert(format!("fn {shown}::{}", signature(&item.sig)));
+                    out.insert(format!("fn {shown}::{}", signature(&item.sig)), docs(&item.attrs));
                 }
             }
         }
         Item::Fn(item) if item.sig.ident == name && is_public(&item.vis) => {
             let signature = signature(&item.sig);
             let rest = signature.strip_prefix(name).unwrap_or(&signature);
-            out.insert(format!("fn {shown}{rest}"));
+            out.insert(format!("fn {shown}{rest}"), docs(&item.attrs));
         }
         Item::Const(item) if item.ident == name && is_public(&item.vis) => {
-            out.insert(format!("const {shown}: {}", tidy(&item.ty)));
+            out.insert(format!("const {shown}: {}", tidy(&item.ty)), docs(&item.attrs));
         }
         Item::Type(item) if item.ident == name && is_public(&item.vis) => {
-            out.insert(format!("type {shown} = {}", tidy(&item.ty)));
+            out.insert(format!("type {shown} = {}", tidy(&item.ty)), docs(&item.attrs));
         }
         _ => {}
     }
 }
 
 /// The lines of what a block implements for a type.
-fn implement(shown: &str, item: &Item, name: &str, out: &mut BTreeSet<String>) {
+fn implement(shown: &str, item: &Item, name: &str, out: &mut Lines) {
     let Item::Impl(block) = item else { return };
     let syn::Type::Path(of) = &*block.self_ty else { return };
     if of.path.segments.last().is_none_or(|part| part.ident != name) {
         return;
     }
-    if let Some((_, path, _)) = &block.trait_ {
-        out.insert(format!("impl {} for {shown}", tidy(path)));
+    if let Some((path, _)) = &block.trait_ {
+        out.insert(format!("impl {} for {shown}", tidy(path)), String::new());
         return;
     }
     for item in &block.items {
         match item {
             ImplItem::Fn(item) if is_public(&item.vis) && !is_hidden(&item.attrs) => {
-                out.insert(format!("fn {shown}::{}", signature(&item.sig)));
+                out.insert(format!("fn {shown}::{}", signature(&item.sig)), docs(&item.attrs));
             }
             ImplItem::Const(item) if is_public(&item.vis) && !is_hidden(&item.attrs) => {
-                out.insert(format!("const {shown}::{}: {}", item.ident, tidy(&item.ty)));
+                let line = format!("const {shown}::{}: {}", item.ident, tidy(&item.ty));
+                out.insert(line, docs(&item.attrs));
             }
             _ => {}
         }
     }
 }
 
-fn fields(path: &str, of: &Fields, need_pub: bool, out: &mut BTreeSet<String>) {
+fn fields(path: &str, of: &Fields, whole: &str, need_pub: bool, out: &mut Lines) {
     for (index, field) in of.iter().enumerate() {
         if (need_pub && !is_public(&field.vis)) || is_hidden(&field.attrs) {
             continue;
         }
         let name = field.ident.as_ref().map_or_else(|| index.to_string(), ToString::to_string);
-        out.insert(format!("field {path}::{name}: {}", tidy(&field.ty)));
+        let docs = format!("{whole} {}", docs(&field.attrs));
+        out.insert(format!("field {path}::{name}: {}", tidy(&field.ty)), docs);
     }
 }
 
@@ -190,6 +206,20 @@ fn told(attributes: &[Attribute]) -> String {
         }
     }
     told
+}
+
+/// The doc comment.
+fn docs(attributes: &[Attribute]) -> String {
+    let mut text = String::new();
+    for attribute in attributes.iter().filter(|attribute| attribute.path().is_ident("doc")) {
+        if let Meta::NameValue(syn::MetaNameValue { value: syn::Expr::Lit(line), .. }) =
+            &attribute.meta
+            && let syn::Lit::Str(line) = &line.lit
+        {
+            text += &line.value();
+        }
+    }
+    text
 }
 
 fn is_public(visibility: &Visibility) -> bool {
@@ -247,13 +277,18 @@ fn tidy(of: &impl ToTokens) -> String {
     text.trim().to_string()
 }
 
-/// The whole API: one line an item, in the order of the alphabet.
-fn listing(root: &Path) -> Result<String, String> {
+/// The whole API.
+fn items(root: &Path) -> Result<Lines, String> {
     let sources = Sources::read(root)?;
-    let mut out = BTreeSet::new();
+    let mut out = Lines::new();
     let folder = root.join("crates").join(FACADE).join("src");
     module(&sources, &folder, ModulePath::new(), &mut out)?;
-    Ok(out.into_iter().map(|line| line + "\n").collect())
+    Ok(out)
+}
+
+/// One line an item, in the order of the alphabet.
+fn listing(root: &Path) -> Result<String, String> {
+    Ok(items(root)?.into_keys().map(|line| line + "\n").collect())
 }
 
 /// The lines of a visible module and of those in it.
@@ -261,13 +296,13 @@ fn module(
     sources: &Sources,
     folder: &Path,
     path: ModulePath,
-    out: &mut BTreeSet<String>,
+    out: &mut Lines,
 ) -> Result<(), String> {
     let home = sources.module(FACADE, &path).ok_or_else(|| format!("no module {path:?}"))?;
     let text = fs::read_to_string(folder.join(&home.file)).map_err(|error| error.to_string())?;
     let syntax = syn::parse_file(&text).map_err(|error| error.to_string())?;
     let shown = [&[FACADE.to_string()], &path[..]].concat().join("::");
-    out.insert(format!("mod {shown}"));
+    out.insert(format!("mod {shown}"), docs(&syntax.attrs));
     for item in &syntax.items {
         match item {
             Item::Mod(item) if is_public(&item.vis) && !is_hidden(&item.attrs) => {
@@ -279,7 +314,10 @@ fn module(
                     let shown = format!("{shown}::{}", used.name);
                     match sources.resolve((FACADE, &path), &used.path) {
                         Some((home, name)) => sources.item(&shown, home, &name, out),
-                        None => drop(out.insert(format!("use {shown} = {}", used.path.join("::")))),
+                        None => {
+                            let line = format!("use {shown} = {}", used.path.join("::"));
+                            out.insert(line, docs(&item.attrs));
+                        }
                     }
                 }
             }
@@ -290,7 +328,7 @@ fn module(
 }
 
 /// The lines of an item that a visible module defines itself.
-fn own(sources: &Sources, shown: &str, path: &ModulePath, item: &Item, out: &mut BTreeSet<String>) {
+fn own(sources: &Sources, shown: &str, path: &ModulePath, item: &Item, out: &mut Lines) {
     let (visibility, attributes, name) = match item {
         Item::Const(item) => (&item.vis, &item.attrs, &item.ident),
         Item::Enum(item) => (&item.vis, &item.attrs, &item.ident),
@@ -326,6 +364,32 @@ fn the_public_api_is_that_of_its_file() {
          line in CHANGELOG.md for what is gone.",
         [gone, new].concat().join("\n")
     );
+}
+
+/// What a number with a fraction counts, in the words of doc comments.
+const UNITS: &[&str] =
+    &["degree", "factor", "inch", "millimeter", "mm", "per ", "ratio", "seconds", "unit", "Year"];
+
+/// Who reads a length needs its unit, and whether it is that of the CL file.
+#[test]
+fn each_number_has_a_unit() {
+    let items = items(filpost_tests::root()).unwrap();
+    let is_number = |line: &str| {
+        let gives = match line.split_once(' ') {
+            Some(("field" | "const", rest)) => rest.split_once(": ").map(|(_, of)| of),
+            Some(("fn", rest)) => rest.split_once("-> ").map(|(_, of)| of),
+            _ => None,
+        };
+        gives.is_some_and(|of| of.contains("f64") || of.contains("f32"))
+    };
+    let numbers: Vec<_> = items.iter().filter(|(line, _)| is_number(line)).collect();
+    assert!(numbers.len() > 20, "{numbers:?}");
+    let without: Vec<&str> = numbers
+        .into_iter()
+        .filter(|(_, docs)| !UNITS.iter().any(|unit| docs.contains(unit)))
+        .map(|(line, _)| line.as_str())
+        .collect();
+    assert!(without.is_empty(), "doc comments without a unit:\n{}", without.join("\n"));
 }
 
 #[test]

@@ -147,7 +147,7 @@ impl Deviation {
         self.count += 1;
     }
 
-    /// Root of the mean square; 0 before any motion.
+    /// Root of the mean square, in the unit of the largest one; 0 before any motion.
     pub fn rms(&self) -> f64 {
         if self.count == 0 { 0.0 } else { (self.squares / self.count as f64).sqrt() }
     }

@@ -15,6 +15,7 @@ mod json;
 mod judge;
 mod lines;
 mod made;
+mod posted;
 mod reference;
 mod text;
 
@@ -43,6 +44,7 @@ const MAP: &str = "the line map";
 
 /// Who made a block.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Author {
     /// FIL.
     Script {
@@ -63,6 +65,7 @@ pub enum Author {
 
 /// What was changed.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum What {
     /// A word has another number.
     Number {
@@ -99,6 +102,7 @@ pub enum What {
 
 /// A change: the same thing by the same author, wherever it happens.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Change {
     /// Who made it.
     pub author: Author,
@@ -136,6 +140,7 @@ impl Verdict {
 
 /// What an audit found.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Audit {
     /// What authors changed, and what the post wrote otherwise because of it.
     pub changes: Vec<Change>,
@@ -175,32 +180,7 @@ impl Audit {
 }
 
 impl Run<'_> {
-    /// Audits a program of this post with the line map of its run.
-    ///
-    /// ```
-    /// use std::io::Cursor;
-    ///
-    /// use filpost::audit::Verdict;
-    /// use filpost::map::Names;
-    /// use filpost::nc::source::Source;
-    ///
-    /// let fil = "CIMFIL/ON,COOLNT\nPOSTN/OUT,M,88\nCIMFIL/OFF\nFINI\n";
-    /// let program = filpost::Program::builder().generic("fanuc-mill").fil("mill.fil", fil).build()?;
-    /// let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nCOOLNT / FLOOD\n\
-    ///     FEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
-    /// let (mut nc, mut map) = (Vec::new(), Vec::new());
-    /// let names = Names { fil: program.fil_files(), ..Names::default() };
-    /// program.start().run_mapped(Cursor::new(cl), &mut nc, &names, &mut map)?;
-    /// let audit = program.start().audit(
-    ///     cl.as_bytes(),
-    ///     (&Source::memory(&nc), "part.nc"),
-    ///     &mut Cursor::new(map),
-    /// )?;
-    /// assert_eq!(audit.verdict(), Verdict::Changed);
-    /// let change = audit.changes[0].to_string();
-    /// assert!(change.starts_with("mill.fil:2 section COOLNT, CL line 4: `M8` -> `M88`"), "{change}");
-    /// # Ok::<(), filpost::Error>(())
-    /// ```
+    /// Audits a program of this post with the line map of its run, see [`Run::run_mapped`].
     ///
     /// # Errors
     /// A CL file, program or map that can't be read; E0707, E0708 for a map of another run.

@@ -16,10 +16,11 @@ const INCH: f64 = 25.4;
 
 /// The tools of a CL file.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct ClTools {
-    /// Those whose size it gives.
+    /// Those whose size it gives, by their numbers; lengths in millimeters.
     pub tools: Tools,
-    /// Why others can't be simulated.
+    /// Why others can't be simulated, by their numbers.
     pub unknown: BTreeMap<u32, String>,
 }
 

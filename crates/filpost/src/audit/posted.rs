@@ -1,0 +1,71 @@
+//! A post in memory with its audit.
+
+use std::io::Cursor;
+
+use fil_cl::reader::Reader;
+use fil_nc::source::Source;
+
+use super::Audit;
+use crate::error::Error;
+use crate::files;
+use crate::map::{self, Names};
+use crate::passes::Pass;
+use crate::posted::Posted;
+use crate::run::Run;
+use crate::source::Stream;
+
+/// The name of the program in messages.
+const NAME: &str = "the program";
+
+impl Run<'_> {
+    /// Posts the text of a CL file as [`Run::post`] does, and audits the program: what scripts and
+    /// INSERT changed in it, and whether the rest does what the CL file asks for. A
+    /// [`Verdict::Faulty`](super::Verdict::Faulty) program is not one to run.
+    ///
+    /// The CL file is posted once more, without scripts. Observers see the first run alone.
+    ///
+    /// ```
+    /// use filpost::audit::Verdict;
+    ///
+    /// let fil = "CIMFIL/ON,COOLNT\nPOSTN/OUT,M,88\nCIMFIL/OFF\nFINI\n";
+    /// let program = filpost::Program::builder().ready("fanuc-mill").fil("mill.fil", fil).build()?;
+    /// let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nCOOLNT / FLOOD\n\
+    ///     FEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
+    /// let (posted, audit) = program.start().post_audited(cl)?;
+    /// assert!(posted.text().contains("M88"));
+    /// assert_eq!(audit.verdict(), Verdict::Changed);
+    /// let change = audit.changes[0].to_string();
+    /// assert!(change.starts_with("mill.fil:2 section COOLNT, CL line 4: `M8` -> `M88`"), "{change}");
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Run::post`]; what the audit finds is no error.
+    pub fn post_audited(self, cl: impl AsRef<[u8]>) -> Result<(Posted, Audit), Error> {
+        self.post_text_audited(cl.as_ref())
+    }
+
+    fn post_text_audited(self, cl: &[u8]) -> Result<(Posted, Audit), Error> {
+        let (judge, again) = (self.of_program(self.program.clone()), self.again());
+        let name = self.name();
+        let cant = |error| files::cant_read(name.as_ref(), &error);
+        let names = Names { cl: name.clone(), fil: self.program.fil_files(), ..Names::default() };
+        let mut lines = Vec::new();
+        let first = self.first_pass(&mut Cursor::new(cl))?;
+        let mut text = map::Digested::new(Cursor::new(cl)).map_err(cant)?;
+        let reader = Reader::seekable(&mut text, &name, self.options());
+        let pass = Pass::writing(first, self.program.has_script());
+        let (page, module) = (self.program.nc_page(), self.program.clone());
+        let writer = map::Writer::new(&mut lines, &names, &module.shared.module, page);
+        let records = Stream::Cl(Box::new(reader));
+        let (mut posted, pending, writer) = self.post_whole(records, pass, Some(writer))?;
+        let digest = text.finish().map_err(cant)?;
+        let written = writer.map_or(Ok(()), |writer| writer.finish(digest));
+        written.map_err(|error| files::cant_write("the line map".as_ref(), &error))?;
+        again.warn_of_undecided(cl, &mut posted.report)?;
+        let nc = Source::memory(posted.bytes());
+        let audit = judge.audit(cl, (&nc, NAME), &mut Cursor::new(lines))?;
+        pending.commit()?;
+        Ok((posted, audit))
+    }
+}
