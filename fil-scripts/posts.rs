@@ -5,6 +5,8 @@
 //! **Model.** They are data: [`filpost`](https://crates.io/crates/filpost) reads and runs them. A
 //! [`ReadyPost`] is a name, a `machine.toml` and a README that says what is assumed of the control.
 //!
+//! **Quick start.**
+//!
 //! ```
 //! let post = filpost_posts::find("Haas-Mill").expect("a ready post");
 //! assert!(post.machine.contains("[address]"));

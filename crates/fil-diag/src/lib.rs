@@ -1,8 +1,28 @@
-//! Errors and warnings as plain data, shared by every crate of filpost.
+//! Errors and warnings of filpost.
 //!
-//! A crate declares its codes once with [`codes!`]; the table made there is
-//! what `filpost explain` prints, what `docs/errors/` is checked against and
-//! what a [`Diag`] points to. Rendering is the command's business alone.
+//! **Goal.** Errors and warnings as plain data, shared by every crate of filpost: what `filpost
+//! explain` prints, what `docs/errors/` is checked against, what an editor underlines.
+//!
+//! **Model.** A crate declares its codes once with [`codes!`]: number, title, reason, hint. A
+//! [`Diag`] is one fault: a [`Code`], a sentence, [`TextSpan`]s in files. A [`Level`] says whether
+//! a doubt is an error, a warning or nothing; [`Levels`] are those that an author has chosen.
+//!
+//! **Quick start.**
+//!
+//! ```
+//! fil_diag::codes! {
+//!     /// What the example can refuse.
+//!     pub enum ExampleCode {
+//!         /// A number that can't be halved.
+//!         Odd = 9901, Error, "an odd number", "The example counts in pairs.", "Give an even number.";
+//!     }
+//! }
+//! let refused: fil_diag::Result<()> = ExampleCode::Odd.err("3 tools");
+//! assert_eq!(refused.unwrap_err().to_string(), "E9901: 3 tools");
+//! ```
+//!
+//! **Limits.** Lines count from 1, spans are bytes of a file. Nothing here prints; a number has
+//! one meaning in all crates, and the crate `filpost` checks that when it is compiled.
 //!
 //! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
 //! change in any version, and all versions change together.

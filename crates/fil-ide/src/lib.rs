@@ -1,8 +1,23 @@
-//! What an editor of FIL, `machine.toml` and CL files needs, over the same parser, names
-//! and tables as a run: no protocol and no I/O.
+//! FIL, `machine.toml` and CL files in an editor.
 //!
-//! [`Script`] is the analysis of a FIL file with the files it includes. Places of an
-//! editor are lines and UTF-16 units ([`Position`]); everything inside counts bytes.
+//! **Goal.** What an editor of FIL, `machine.toml` and CL files needs, over the same parser, names
+//! and tables as a run.
+//!
+//! **Model.** [`Script`] is the analysis of a FIL file with the files it includes; [`machine`] and
+//! [`cl_file`] are that of the other two.
+//!
+//! **Quick start.**
+//!
+//! ```
+//! use fil_ide::{Position, Text, machine};
+//!
+//! let text = Text::new("[program]\nend_code = 2\n");
+//! let hover = machine::hover(&text, Position { line: 1, character: 2 });
+//! assert!(hover.is_some());
+//! ```
+//!
+//! **Limits.** Places of an editor are lines and UTF-16 units, both from 0 ([`Position`]);
+//! everything inside counts bytes. No protocol and no I/O: `filpost-lsp` is the server.
 //!
 //! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
 //! change in any version, and all versions change together.

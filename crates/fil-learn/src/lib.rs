@@ -1,10 +1,28 @@
-//! Finds the settings with which filpost writes the same programs as a proven post.
+//! Posts learned from proven programs.
 //!
-//! A [`Task`] has pairs of a CL file and the NC program that ran on the machine. [`learn`]
-//! changes settings of ready posts, posts the CL files, and compares with the proven programs.
-//! The result is a [`Learned`]: a machine, the lines that prove each of its settings, what no
-//! pair decides, and the lines that still differ. It is the same for the same input, whatever
-//! the number of threads.
+//! **Goal.** The settings with which filpost writes the same programs as a proven post.
+//!
+//! **Model.** A [`Task`] has pairs of a CL file and the NC program that ran on the machine.
+//! [`learn`] changes settings of ready posts, posts the CL files, and compares with the proven
+//! programs. The result is a [`Learned`]: a machine, the lines that prove each of its settings,
+//! what no pair decides, and the lines that still differ.
+//!
+//! **Quick start.**
+//!
+//! ```
+//! use fil_learn::{Bases, Pair, Task};
+//!
+//! let cl = "PARTNO / 7\nUNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
+//! let nc = "%\nO7\nG21\nG17 G90 G94\nG54\nT1 M6\nG1 G43 X1. Y2. Z3. F200. H1\nM2\n%\n";
+//! let pair = Pair::new("part.ncl", cl.as_bytes(), "part.nc", nc.as_bytes());
+//! let bases = Bases::Ready(vec!["fanuc-mill".into()]);
+//! let learned = fil_learn::learn(&Task::new(vec![pair], bases))?;
+//! assert!(learned.machine_toml().contains("program.rewind_code = 2"));
+//! # Ok::<(), filpost::Error>(())
+//! ```
+//!
+//! **Limits.** The same input gives the same result, whatever the number of threads. It learns
+//! settings, no FIL, and no more than its pairs show; it opens no file.
 //!
 //! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
 //! change in any version, and all versions change together.

@@ -1,11 +1,25 @@
-//! What a machine is: its settings, addresses and axes, and the files that
-//! describe it.
+//! Machine tools as settings, and the files that describe them.
 //!
-//! All settings live in the [`commons::Commons`]; the table of [`locations`] names
-//! and types them. [`address`] and [`axes`] are what the commons say about the
-//! letters and the axis words of a block, [`axis_chain`] is the chain of rotary
-//! axes. [`files`] reads and writes `machine.toml` and option files. Nothing here
-//! knows CL records, FIL or NC programs.
+//! **Goal.** What a machine tool and its control are, as settings.
+//!
+//! **Model.** All settings live in the [`commons::Commons`] (INTCOM, RELCOM, DBLCOM); the table of
+//! [`locations`] names and types them, each with its unit. [`address`] and [`axes`] are what they
+//! say about the letters and axis words of a block, [`axis_chain`] is the chain of rotary axes.
+//! [`files`] reads and writes `machine.toml` and option files.
+//!
+//! **Quick start.**
+//!
+//! ```
+//! use fil_machine::{files::lay_over, locations::default_commons};
+//!
+//! let mut machine = default_commons();
+//! let warnings = lay_over(&mut machine, "machine.toml", "[program]\nend_code = 2\n").unwrap();
+//! assert!(warnings.is_empty());
+//! ```
+//!
+//! **Limits.** The table says the unit of each setting: mm, degrees, mm/min, rpm, seconds. Nothing
+//! here knows CL records, FIL or NC programs; settings that contradict each other are an error when
+//! a file is read.
 //!
 //! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
 //! change in any version, and all versions change together.

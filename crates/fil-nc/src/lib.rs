@@ -1,15 +1,16 @@
-//! NC programs read back: text to words, words to motions.
+//! The checker alone: NC programs read back.
 //!
-//! [`text`] cuts a program into blocks of words, whatever control it is for;
-//! [`diff`] compares two programs;
-//! [`plot`] draws a path;
-//! [`motion`] is what a program does, as plain data. Nothing here shares a line
-//! with the post's output side: a fault of the writer must not hide itself in
-//! the reader.
+//! **Goal.** A program that judges, compares or draws NC programs, of whatever post, depends on
+//! this crate and on no other of the workspace. Machines and their settings are in [`machine`], CL
+//! text in [`cl`], diagnostics in [`diag`].
 //!
-//! The checker alone: a program that judges NC programs depends on this crate and on no other of
-//! the workspace. Machines and their settings are in [`machine`], CL text in [`cl`], diagnostics in
-//! [`diag`].
+//! **Model.** [`text`] cuts a program into blocks of words as its control reads them
+//! ([`dialect`]); [`interpret`] moves the machine by them; [`motion`] is what the program does, as
+//! plain data; [`verify`] compares that with a CL file, [`diff`] two programs, [`plot`] draws a
+//! path. Nothing here shares a line with the post's output side: a fault of the writer must not
+//! hide itself in the reader.
+//!
+//! **Quick start.** A whole program is `examples/check.rs`.
 //!
 //! ```
 //! use fil_nc::machine::{Commons, Unit, locations::default_commons};
@@ -35,8 +36,8 @@
 //! # Ok::<(), Box<fil_nc::diag::Diag>>(())
 //! ```
 //!
-//! Lengths in reports are in mm, angles in degrees. Limits: what a reader does not know of a control
-//! is an error or a place that is not verified, never a guess.
+//! **Limits.** Lengths in reports are in mm, angles in degrees, lines count from 1. What a reader
+//! does not know of a control is an error or a place that is not verified, never a guess.
 
 pub use fil_cl as cl;
 pub use fil_diag as diag;

@@ -1,11 +1,24 @@
-//! The generalized post: CL records to NC blocks.
+//! The generalized post.
 //!
-//! [`Post`] takes records one after the other. The [`dispatch`]er hands the items of
-//! a record to its post word ([`words`], one file a word), which makes
-//! [`operation`]s; the passes in [`path`] bring motions to the machine's axes; the
-//! [`control`] writes blocks to its [`tape`], and its [`control_state`] learns from
-//! each block what the control knows. All settings live in the commons of
-//! [`fil_machine`].
+//! **Goal.** The generalized post: CL records to NC blocks.
+//!
+//! **Model.** [`Post`] takes records one after the other. The [`dispatch`]er hands the items of a
+//! record to its post word ([`words`], one file a word), which makes [`operation`]s; the passes in
+//! [`path`] bring motions to the machine's axes; the [`control`] writes blocks to its [`tape`],
+//! and its [`control_state`] learns from each block what the control knows. All settings live in
+//! the commons of [`fil_machine`].
+//!
+//! **Quick start.**
+//!
+//! ```
+//! use fil_machine::locations::default_commons;
+//!
+//! let post = fil_post::Post::new(default_commons());
+//! assert!(post.is_ok());
+//! ```
+//!
+//! **Limits.** It knows no FIL and reads no file. What a word or a control can't do is an error
+//! that names the CL line; after an error the post is not to be used.
 //!
 //! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
 //! change in any version, and all versions change together.

@@ -1,8 +1,24 @@
-//! FIL text to tree: lexer (logos), grammar (lalrpop), diagnostics as plain data.
+//! The syntax of FIL.
 //!
-//! [`parse`] never fails: it returns a tree of what could be read and a list of
-//! diagnostics. [`decode`] makes text of a file's bytes, [`print`](print::print)
-//! writes a tree back as FIL text, [`format()`] gives a text its canonical layout.
+//! **Goal.** FIL text to tree, and back.
+//!
+//! **Model.** [`parse`] never fails: it gives a tree of what could be read and a list of
+//! diagnostics. [`decode`] makes text of a file's bytes, [`print`](print::print) writes a tree
+//! back as FIL text, [`format()`] gives a text its canonical layout. The lexer is made by logos,
+//! the grammar by lalrpop; `structure.rs` nests the flat lines.
+//!
+//! **Quick start.**
+//!
+//! ```
+//! let parsed = fil_syntax::parse("feed.fil", "CIMFIL/ON,FEDRAT\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n");
+//! assert!(parsed.diags.is_empty());
+//!
+//! let parsed = fil_syntax::parse("feed.fil", "A=(1+\nFINI\n");
+//! assert!(parsed.diags.iter().any(|diag| diag.is_error()));
+//! ```
+//!
+//! **Limits.** Places are bytes of the text, lines count from 1. Nothing is evaluated, and no name
+//! is resolved: that is `fil-vm`.
 //!
 //! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
 //! change in any version, and all versions change together.

@@ -1,10 +1,28 @@
-//! Code pages: text as the bytes of a control, and back.
+//! Code pages of controls.
 //!
-//! A text is written in a page only as bytes that read back as the same text; the first letter
-//! that a page lacks is named, and never replaced. The pages and the numbers by which
-//! Windows knows them are those of <https://learn.microsoft.com/windows/win32/intl/code-page-identifiers>;
-//! their tables are those of <https://www.unicode.org/Public/MAPPINGS> and, where a character has two
-//! bytes, of <https://encoding.spec.whatwg.org>.
+//! **Goal.** Text as the bytes of a control, and back.
+//!
+//! **Model.** A [`CodePage`] encodes and decodes. A text is written in a page only as bytes that
+//! read back as the same text; the first letter that a page lacks is named, and never replaced.
+//! The pages and the numbers by which Windows knows them are those of
+//! <https://learn.microsoft.com/windows/win32/intl/code-page-identifiers>; their tables are those
+//! of <https://www.unicode.org/Public/MAPPINGS> and, where a character has two bytes, of
+//! <https://encoding.spec.whatwg.org>.
+//!
+//! **Quick start.**
+//!
+//! ```
+//! use fil_text::CodePage;
+//!
+//! let page = CodePage::named("windows-1252").ok_or("no such page")?;
+//! assert_eq!(page.encode("(FRÄSER)").as_deref(), Ok(&b"(FR\xC4SER)"[..]));
+//! assert_eq!(page.encode("(刀 Ä)"), Err('刀'));
+//! assert_eq!(page.decode(b"(FR\xC4SER)").as_deref(), Some("(FRÄSER)"));
+//! # Ok::<(), &str>(())
+//! ```
+//!
+//! **Limits.** Whole texts in memory, no stream; no page is guessed from its bytes. Without the
+//! feature `double-byte` the pages of East Asia are not there.
 //!
 //! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
 //! change in any version, and all versions change together.

@@ -1,13 +1,14 @@
-//! FIL compiler and virtual machine.
+//! The interpreter of FIL alone: compiler and virtual machine.
 //!
-//! [`load`] reads FIL files into a [`Module`]: register bytecode with every
-//! name resolved. A [`Interpreter`] runs its global area once and then a section
-//! for each CL record that has one. It does no I/O: everything outside goes
-//! through [`Host`].
+//! **Goal.** A program that runs FIL for an end of its own, without a machine tool and without a
+//! post, depends on this crate and on no other of the workspace. Records and CL text are in
+//! [`cl`], diagnostics in [`diag`], trees of FIL text in [`syntax`].
 //!
-//! The interpreter alone: a program that runs FIL for an end of its own depends on this crate and
-//! on no other of the workspace. Records and CL text are in [`cl`], diagnostics in [`diag`], trees
-//! of FIL text in [`syntax`].
+//! **Model.** [`load`] reads FIL files into a [`Module`]: register bytecode with every name
+//! resolved. An [`Interpreter`] runs its global area once and then a section for each CL record
+//! that has one. It does no I/O: everything outside goes through [`Host`].
+//!
+//! **Quick start.** A whole program is `examples/interpret.rs`.
 //!
 //! ```
 //! use fil_vm::cl::Vocabulary;
@@ -23,7 +24,9 @@
 //! assert!(diags[0].is_error());
 //! ```
 //!
-//! Limits: no I/O and no clock but those of the host; time and memory of a script by [`Limits`].
+//! **Limits.** No I/O and no clock but those of the host; time and memory of a script by
+//! [`Limits`] (steps, bytes, calls). Numbers are `f64` without a unit: what they count in is the
+//! script's affair.
 
 mod allow;
 mod arithmetic;

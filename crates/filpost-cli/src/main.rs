@@ -1,7 +1,15 @@
 //! The filpost command: CL file and FIL macros in, NC program out.
 //!
-//! Exit status: 0 done, 1 errors in the input or the post, 2 wrong usage,
-//! 3 internal fault.
+//! **Goal.** NC programs for a shop, made, checked and kept by commands.
+//!
+//! **Model.** A command reads files, calls the crate [filpost](https://docs.rs/filpost) and prints what
+//! it gives back; a program of your own takes that crate and not this one.
+//!
+//! **Quick start.** `filpost post part.ncl -p haas-mill -o part.nc`, then
+//! `filpost verify part.ncl part.nc -p haas-mill`; `filpost help` names the others.
+//!
+//! **Limits.** On any error there is no NC file. Exit status: 0 done, 1 errors in the input or the post,
+//! 2 wrong usage, 3 internal fault.
 
 mod args;
 mod audit;

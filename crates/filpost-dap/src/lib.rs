@@ -8,6 +8,8 @@
 //! [`look`] is for hosts without threads, such as a page: it runs a program in memory to one place and tells
 //! what there is to see. Lines and columns count from 1.
 //!
+//! **Quick start.** In a program that is started by an editor:
+//!
 //! ```no_run
 //! fn main() -> Result<(), String> {
 //!     filpost_dap::serve_stdio()

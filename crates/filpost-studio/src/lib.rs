@@ -1,9 +1,22 @@
-//! The local server of the studio: one page, the files of one folder, and the answers of
-//! [`filpost_wasm`].
+//! The local server of the studio.
 //!
-//! The server listens on the loopback address only. It answers requests that have the token of its
-//! address and come from its own page, by `Host` and `Origin`. It opens no file outside its folder
-//! and never runs what a text names.
+//! **Goal.** A post made, run and judged in one page of the browser, with the files of one folder.
+//!
+//! **Model.** A [`Studio`] serves the page and the files of its folder; what the page asks of a post is
+//! answered by [`filpost_wasm`]. `filpost studio` starts the program of this crate.
+//!
+//! **Quick start.** In a program with a command of its own:
+//!
+//! ```no_run
+//! let studio = filpost_studio::Studio::open("my-post".as_ref(), 0)?;
+//! println!("{}", studio.address());
+//! studio.serve();
+//! # Ok::<(), filpost::Error>(())
+//! ```
+//!
+//! **Limits.** The server listens on the loopback address only. It answers requests that have the
+//! token of its address and come from its own page, by `Host` and `Origin`. It opens no file outside
+//! its folder and never runs what a text names.
 #![deny(missing_docs)]
 
 pub mod browser;

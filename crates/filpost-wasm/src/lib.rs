@@ -1,8 +1,11 @@
-//! filpost for WebAssembly: posting and the language tools over texts in memory.
+//! filpost for WebAssembly.
 //!
-//! The module takes requests and gives answers, both JSON in UTF-8. [`answer`] is all of
-//! it; the border (`border.rs`) hands the bytes over where the target is WebAssembly. It needs no
-//! thread, no clock and no file, and imports nothing from its host.
+//! **Goal.** Posting and the language tools where there is no file system: in a page, in node.
+//!
+//! **Model.** The module takes requests and gives answers, both JSON in UTF-8. [`answer`] is all
+//! of it; the border (`border.rs`) hands the bytes over where the target is WebAssembly.
+//!
+//! **Quick start.**
 //!
 //! ```
 //! let request = r#"{"do": "post", "ready": "fanuc-mill",
@@ -11,6 +14,9 @@
 //! assert!(String::from_utf8(answer)?.contains("G1 G43 X1. Y2. Z3. F200. H1"));
 //! # Ok::<(), std::string::FromUtf8Error>(())
 //! ```
+//!
+//! **Limits.** Texts are in memory. It needs no thread, no clock and no file, and imports nothing
+//! from its host.
 #![deny(missing_docs)]
 
 #[cfg(target_family = "wasm")]

@@ -7,6 +7,8 @@ mod learn_judge;
 mod metrics;
 mod new;
 #[cfg(test)]
+mod pages;
+#[cfg(test)]
 mod public;
 mod shadow;
 
