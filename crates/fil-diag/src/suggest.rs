@@ -28,6 +28,41 @@ pub fn did_you_mean<'k>(name: &str, known: impl IntoIterator<Item = &'k str>) ->
     nearest(name, known).map(|near| format!("did you mean {near}?"))
 }
 
+/// Most names of a group that are shown.
+const MOST_OF_GROUP: usize = 3;
+
+/// What was perhaps meant by a name of parts, `group.first_second`: the nearest known name, else
+/// names of the same group with a part that begins alike, else the group itself.
+pub fn meant_in_group<'k>(
+    name: &str,
+    known: impl Iterator<Item = &'k str> + Clone,
+) -> Option<String> {
+    if let Some(near) = did_you_mean(name, known.clone()) {
+        return Some(near);
+    }
+    let (group, key) = name.split_once('.')?;
+    let of_group = known.filter_map(|other| {
+        let (other_group, other_key) = other.split_once('.')?;
+        (other_group == group).then_some((other, other_key))
+    });
+    let alike = |(_, other): &(&str, &str)| {
+        let mut parts = key.split('_').filter(|part| *part != "code");
+        parts.any(|part| other.split('_').any(|known| begin_alike(part, known)))
+    };
+    let near: Vec<&str> =
+        of_group.clone().filter(alike).map(|(name, _)| name).take(MOST_OF_GROUP).collect();
+    if !near.is_empty() {
+        return Some(format!("did you mean {}?", near.join(" or ")));
+    }
+    let names_group = of_group.clone().next().is_some();
+    names_group.then(|| format!("`filpost explain {group}` lists the settings of {group}"))
+}
+
+/// Both begin with the same three letters, as `thru` and `through`.
+fn begin_alike(a: &str, b: &str) -> bool {
+    a.get(..3).is_some_and(|start| b.starts_with(start))
+}
+
 /// Number of single-character edits between two texts, letters in any case: a character put in,
 /// left out or replaced, or two neighbours swapped.
 fn edits(a: &str, b: &str) -> usize {
@@ -63,6 +98,18 @@ mod tests {
         assert_eq!(nearest("OF", known), None, "half of it differs");
         assert_eq!(nearest("COOLNT", known), None);
         assert_eq!(did_you_mean("SPINDEL", known).as_deref(), Some("did you mean SPINDL?"));
+    }
+
+    #[test]
+    fn a_name_of_a_group_suggests_its_like() {
+        let known = ["coolant.flood_code", "coolant.thru_high_code", "coolant.thru_low_code"];
+        let meant = |name: &str| meant_in_group(name, known.iter().copied());
+        let thru = "did you mean coolant.thru_high_code or coolant.thru_low_code?";
+        assert_eq!(meant("coolant.through").as_deref(), Some(thru));
+        assert_eq!(meant("coolant.flod_code").as_deref(), Some("did you mean coolant.flood_code?"));
+        let group = "`filpost explain coolant` lists the settings of coolant";
+        assert_eq!(meant("coolant.wet").as_deref(), Some(group));
+        assert_eq!(meant("water.wet"), None);
     }
 
     #[test]

@@ -384,7 +384,12 @@ impl Axis {
         let Axis { letter, min, max, .. } = self;
         // A number that was computed has digits that nobody has asked for.
         let told = (position * 1e6).round() / 1e6;
-        MachineCode::AxisLimit.diag(format!("{letter}{told} lies outside {min} to {max}"))
+        let beyond = match (min.is_finite(), max.is_finite()) {
+            (true, false) => format!("below {min}"),
+            (false, true) => format!("above {max}"),
+            _ => format!("outside {min} to {max}"),
+        };
+        MachineCode::AxisLimit.diag(format!("{letter}{told} lies {beyond}"))
     }
 
     /// True when the tape does not yet stand at this scaled value.

@@ -141,7 +141,14 @@ pub(crate) fn wrong_value(row: &Location, value: &str) -> Box<Diag> {
     let message = format!("`{}` can't be {value} (unit {})", row.name, row.unit);
     let diag = MachineCode::SettingValue.diag(message);
     if row.choices.is_empty() {
-        return diag;
+        // "5" and "M8" are the numbers 5 and 8 with more around them.
+        let digits = value.trim_matches(|letter: char| !letter.is_ascii_digit());
+        return match digits.parse::<f64>() {
+            Ok(_) => {
+                Box::new(diag.hint(format!("write the number alone: {} = {digits}", row.name)))
+            }
+            Err(_) => diag,
+        };
     }
     Box::new(diag.hint(format!("choose one of {}", row.choices.replace('|', ", "))))
 }

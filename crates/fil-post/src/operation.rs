@@ -360,8 +360,8 @@ pub enum Operation {
     SelectTool(i64),
     /// A function by its number: G or M.
     Function(Letter, FunctionCode),
-    /// An auxiliary function that the next motion brings along.
-    WithMotion(FunctionCode),
+    /// A function that the next motion brings along.
+    WithMotion(Letter, FunctionCode),
     /// A block of exactly these words, each with its cause.
     Words(Vec<(Letter, f64, Cause)>),
     /// Words for each motion from now on; none ends them.

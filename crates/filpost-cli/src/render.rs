@@ -104,7 +104,7 @@ impl Shown {
 
 /// The excerpt as it is shown, and the place within it: control characters
 /// are replaced, a long line is cut around the place.
-fn shown_excerpt(place: &TextSpan) -> (String, std::ops::Range<usize>) {
+pub fn shown_excerpt(place: &TextSpan) -> (String, std::ops::Range<usize>) {
     let (mut text, mut from, mut to) = (String::new(), None, None);
     let count = place.excerpt.chars().count();
     let at = place.excerpt.get(..place.span.start).map_or(0, |head| head.chars().count());

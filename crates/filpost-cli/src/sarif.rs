@@ -3,6 +3,8 @@
 use filpost::{Code, Diag, TextSpan};
 use serde_json::{Value, json};
 
+use crate::render::shown_excerpt;
+
 /// The schema of the form.
 const SCHEMA: &str = "https://json.schemastore.org/sarif-2.1.0.json";
 
@@ -66,7 +68,7 @@ fn location(place: &TextSpan) -> Value {
                 "startLine": place.line,
                 "startColumn": column,
                 "endColumn": column + marked.chars().count(),
-                "snippet": { "text": place.excerpt },
+                "snippet": { "text": shown_excerpt(place).0 },
             },
         },
     })

@@ -29,7 +29,7 @@ pub const ROUNDED: [&str; 18] = [
 
 /// Words of an axis, by the program, the letter and the block, that bring no tool to the part
 /// elsewhere, whatever they say.
-pub const IDLE: [(&str, u8, &str); 45] = [
+pub const IDLE: [(&str, u8, &str); 46] = [
     // Where a long line is divided: the tool goes through the point, and no block is too long.
     ("words/goto-longer-than-a-block-may-be", b'X', "`G1 X35. F100.`"),
     // The rapid back after a repositioning ends farther away: more of the way is made at feed.
@@ -64,6 +64,7 @@ pub const IDLE: [(&str, u8, &str); 45] = [
     ("words/thread-by-cycle97", b'Z', "`G0 X28 Z"),
     // Without the level above the holes the tool travels higher.
     ("words/cycle-rapto-from-clear", b'Z', "`Z3.`"),
+    ("words/cycle-return-below-the-level-before-goes-down", b'Z', "`Z5.`"),
     // The height to which the tool goes up, and from which it comes back at feed.
     ("words/cycle-bore-single-moves-as-its-cycle", b'Z', "`Z302.`"),
     ("words/rotary-limit-retracts-", b'Z', "Z4.508`"),

@@ -23,6 +23,35 @@ fn is_nci(text: &[u8]) -> bool {
     is_code && items.next().is_some_and(is_value)
 }
 
+/// True for the beginning of an NC program: a tape mark, a program number, or Klartext's frame.
+fn is_nc_program(text: &[u8]) -> bool {
+    let mut lines = text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
+    let Some(first) = lines.find(|line| !line.is_empty()) else { return false };
+    let is_number = |rest: &[u8]| {
+        let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+        digits > 0 && rest.get(digits).is_none_or(|byte| matches!(byte, b' ' | b'('))
+    };
+    first == b"%"
+        || first.strip_prefix(b"O").is_some_and(is_number)
+        || first.starts_with(b"0 BEGIN PGM ")
+}
+
+/// What a text is that holds no statements of a CL file, and what to do.
+fn other_file(text: &[u8]) -> Option<(&'static str, &'static str)> {
+    match () {
+        () if text.is_empty() => Some(("an empty file", "Export the CL file again.")),
+        () if is_nc_program(text) => Some((
+            "an NC program, and no CL file",
+            "Give the CL file first: filpost post PART.ncl; filpost verify PART.ncl PROGRAM.nc",
+        )),
+        () if is_nci(text) => Some((
+            "an NCI file of Mastercam: codes and values in turn, and no statements",
+            "Write APT with a post of Mastercam for it (NCI2APT), and post that file.",
+        )),
+        () => None,
+    }
+}
+
 /// What the signs in a text show, from the statement of its first line on.
 fn scouted(text: &[u8], file: &str, line: u32, options: Options) -> Recognition {
     let mut scout = Reader::new(text, file, options);
@@ -42,17 +71,17 @@ fn scouted(text: &[u8], file: &str, line: u32, options: Options) -> Recognition 
 }
 
 impl Reader<'_> {
-    /// Refuses a file of a system that writes no CL text.
+    /// Refuses a file of another kind.
     ///
     /// # Errors
-    /// It is an NCI file.
-    pub(super) fn refuse_nci(&self) -> Result<()> {
-        if self.is_scout || !is_nci(self.lines.unread()) {
+    /// It is one.
+    pub(super) fn refuse_other_files(&mut self) -> Result<()> {
+        // An input that fails is told of when its first record is read.
+        if self.is_scout || self.lines.fill_to(AHEAD).is_err() {
             return Ok(());
         }
+        let Some((message, hint)) = other_file(self.ahead()) else { return Ok(()) };
         let place = TextSpan::line(&self.file, self.lines.line(), "");
-        let message = "an NCI file of Mastercam: codes and values in turn, and no statements";
-        let hint = "Write APT with a post of Mastercam for it (NCI2APT), and post that file.";
         Err(Box::new(Diag::new(ClCode::BinaryData, message).at(place).hint(hint)))
     }
 

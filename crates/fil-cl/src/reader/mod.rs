@@ -252,7 +252,7 @@ impl<'r> Reader<'r> {
         if !self.started {
             self.lines.skip_mark().map_err(|error| self.read_failed(&error))?;
             self.recognize_ahead();
-            self.refuse_nci()?;
+            self.refuse_other_files()?;
             self.started = true;
         }
         Ok(())

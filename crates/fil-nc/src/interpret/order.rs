@@ -57,6 +57,8 @@ pub(super) struct Order {
     part: Part,
     /// The tape began with its mark, so the next one ends it.
     marked: bool,
+    /// The program has its number; another one would begin another program.
+    numbered: bool,
     /// Why a line of the head is no block; it may be a label.
     label: Option<Box<Diag>>,
     /// It was refused at the block after it.
@@ -70,6 +72,7 @@ impl Order {
         Order {
             part: Part::Head,
             marked: false,
+            numbered: false,
             label: None,
             refused_label: false,
             has_end: dialect.has(Habit::HasEnd),
@@ -106,7 +109,10 @@ impl Order {
                 return Ok(false);
             }
             Part::Closed => return Err(after_end().into()),
-            Part::Head if is_program_number(block) => return Ok(false),
+            Part::Head if is_program_number(block) && !self.numbered => {
+                self.numbered = true;
+                return Ok(false);
+            }
             Part::Head => self.part = Part::Body,
         }
         Ok(true)

@@ -94,6 +94,10 @@ impl<C: Steps> Verifier<'_, C> {
             if !ends && (angle > arc.sweep + slack || !self.is_on(arc, angle, &found)) {
                 return None;
             }
+            if !ends && found.arc.is_some() {
+                // The rounding of one block is none of the next one.
+                angle += self.off_angle(arc, angle, &found);
+            }
             parts.angles.push(angle);
             parts.lines &= found.arc.is_none();
             if ends {
@@ -219,11 +223,16 @@ impl<C: Steps> Verifier<'_, C> {
         let rise = arc.rise_of(arc.end.tip) * share;
         // A last digit along the arc is more of them along the axis of a steep helix.
         let slope = arc.rise_of(arc.end.tip).abs() / (arc.sweep.to_radians() * arc.radius());
-        let behind = (arc.angle_of(tip) - angle).rem_euclid(360.0);
-        let along = behind.min(360.0 - behind).to_radians() * arc.radius();
+        let along = self.off_angle(arc, angle, found).abs().to_radians() * arc.radius();
         (arc.spoke(tip).norm() - arc.radius()).abs() <= slack
             && (arc.rise_of(tip) - rise).abs() <= slack * (1.0 + slope)
             && along <= slack
+    }
+
+    /// How far a block ends behind an angle of the arc, degrees; negative before it.
+    fn off_angle(&self, arc: &Arc, angle: f64, found: &Move) -> f64 {
+        let behind = (arc.angle_of(self.tip(arc, found)) - angle).rem_euclid(360.0);
+        if behind > 180.0 { behind - 360.0 } else { behind }
     }
 
     /// Short lines divide an arc into even parts.

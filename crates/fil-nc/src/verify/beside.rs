@@ -2,6 +2,7 @@
 
 use super::ahead::Steps;
 use super::expected_step::{Effect, End, ExpectedStep, Step};
+use super::hole::APPROACH;
 use super::report::{FindingKind, Unverified};
 use super::say::short;
 use super::settings::Quantity;
@@ -123,6 +124,18 @@ impl<C: Steps> Verifier<'_, C> {
     pub(super) fn ask_rigid(&mut self, cl_line: u32, tap: u32) {
         if let Some(code) = self.settings.rigid_tap_mode() {
             self.auxiliaries.ask(code, cl_line, [self.last_line(), tap]);
+        }
+    }
+
+    /// The mode of rigid taps comes before the next cycle, maybe behind the ways over its hole.
+    pub(super) fn ask_rigid_ahead(&mut self, cl_line: u32) {
+        let mut ahead = self.nc.from(self.next).take(APPROACH);
+        let cycle = ahead.find(|event| matches!(event, Event::Move(found) if found.in_cycle));
+        let cycle = cycle.map(|event| event.line());
+        drop(ahead);
+        match cycle {
+            Some(tap) => self.ask_rigid(cl_line, tap),
+            None => self.ask_auxiliary(cl_line, self.settings.rigid_tap_mode()),
         }
     }
 

@@ -13,7 +13,10 @@ use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Spindle};
 
 /// Most motions over a hole before it is drilled.
-const APPROACH: usize = 7;
+pub(super) const APPROACH: usize = 7;
+
+/// Most motions from the end of a peck to that of the next one: out, back, and deeper.
+const PECK_PARTS: usize = 3;
 
 /// Most pecks of one hole.
 const MOST_PECKS: usize = 10_000;
@@ -174,6 +177,7 @@ impl<C: Steps> Verifier<'_, C> {
         let rest = self.approach(cl_line, hole, levels)?;
         // The last peck, as the tape has it.
         let mut reached: Option<f64> = None;
+        let mut line = 0;
         let in_cycle = self.next_move().is_some_and(|found| found.in_cycle);
         for depth in self.depths(hole, levels, in_cycle) {
             if let Some(reached) = reached {
@@ -191,11 +195,32 @@ impl<C: Steps> Verifier<'_, C> {
                 return Err((found.line, format!("{} in a hole", self.spell_move(&found))));
             }
             self.check_rate_of_hole(cl_line, before, &found, hole);
-            reached = Some(found.to.linear[2]);
+            (reached, line) = (Some(found.to.linear[2]), found.line);
+        }
+        if let Some(reached) = reached.filter(|reached| in_cycle && self.pecks_on(*reached, line)) {
+            // The rounding of the words leaves a last digit for one peck more.
+            self.between_pecks(cl_line, hole, levels, reached)?;
+            self.level(cl_line, levels.bottom, "the hole")?;
         }
         self.bottom_dwell(cl_line, hole)?;
         self.leave(cl_line, hole, levels.clear, (rest, turning))?;
         Ok(rest)
+    }
+
+    /// The cycle of a line goes on below a level in the same hole.
+    fn pecks_on(&self, reached: f64, line: u32) -> bool {
+        let mut ahead = self.nc.from(self.next).take(PECK_PARTS);
+        ahead.any(|event| match event {
+            Event::Move(found) => {
+                let over = (0..2).all(|n| found.to.linear[n] == self.at.linear[n]);
+                found.line == line
+                    && found.in_cycle
+                    && found.course == Course::Feed
+                    && over
+                    && found.to.linear[2] < reached
+            }
+            _ => false,
+        })
     }
 
     /// The levels of the pecks and the bottom, as a cycle of the control or single moves make

@@ -24,7 +24,7 @@ pub(super) const RAPID_PARTS: usize = 4;
 impl<C: Steps> Verifier<'_, C> {
     /// A rapid in one block or in parts.
     pub(super) fn rapid(&mut self, cl_line: u32, pose: &Pose) -> bool {
-        if self.stands_at(pose) {
+        if self.stands_at(pose) && !self.goes_a_digit_to(pose) {
             return true;
         }
         if let Some(feed) = self.feed_of_short_rapid(pose) {
@@ -63,6 +63,13 @@ impl<C: Steps> Verifier<'_, C> {
         }
         self.memory.rapid_end = Some(*pose);
         true
+    }
+
+    /// The next block is a rapid to where the tool stands but for its last digits.
+    fn goes_a_digit_to(&self, pose: &Pose) -> bool {
+        self.next_move().is_some_and(|found| {
+            found.course == Course::Rapid && !found.in_cycle && self.reaches(&found, pose)
+        })
     }
 
     /// Ways of no length behind a rapid, with which polar interpolation begins, are of it: the

@@ -251,16 +251,26 @@ impl<C: Steps> Verifier<'_, C> {
                 break;
             }
             for (n, open) in open.iter_mut().enumerate() {
-                *open &= found.to.rotary[n].abs() > self.slack.rotary[n];
+                *open &= self.off_home(n, found.to.rotary[n]) > self.slack.rotary[n];
             }
             self.take_without_length(cl_line, &found);
             self.next += 1;
         }
-        let is_home = |n: &usize| self.known[n + 3] && self.at.rotary[*n] == 0.0;
+        let is_home = |n: &usize| self.known[n + 3] && self.off_home(*n, self.at.rotary[*n]) == 0.0;
         if (0..2).filter(|n| open[*n]).any(|n| !is_home(&n)) {
             let message = "the rotary axes do not turn to 0".to_string();
             self.find(FindingKind::Missing, Some(cl_line), None, message);
         }
+    }
+
+    /// How far a rotary axis stands from 0, degrees; one that counts within a turn is home after
+    /// each turn.
+    fn off_home(&self, index: usize, angle: f64) -> f64 {
+        let turns = match self.settings.dialect.axes[index + 3].way_round {
+            Some(_) => (angle / 360.0).round(),
+            None => 0.0,
+        };
+        (angle - 360.0 * turns).abs()
     }
 
     /// A rotary axis turns by itself to a position, at rapid.

@@ -40,7 +40,6 @@ impl Restarts {
             // Words of the user's own may be a stop.
             ExpectedStep::Tool { .. }
             | ExpectedStep::Stop { .. }
-            | ExpectedStep::Insert { .. }
             | ExpectedStep::Words(_)
             | ExpectedStep::Repeated(_)
             | ExpectedStep::Auxiliary(_)
@@ -63,7 +62,12 @@ impl Restarts {
                 self.spindle.was_on = None;
             }
             Auxiliary::Coolant(code) => self.coolant = by_record(code.is_some()),
-            _ => {}
+            Auxiliary::CAxis(..)
+            | Auxiliary::Counts(_)
+            | Auxiliary::Side(_)
+            | Auxiliary::SpindleRange(_) => {}
+            // A tool change, a stop, or what may be one.
+            _ => self.stop(),
         }
     }
 }

@@ -346,11 +346,15 @@ impl<C: Steps> Verifier<'_, C> {
         let least = if in_cycle { self.settings.least_springs() } else { 0 };
         let rough = law.len() - (count - full).min(law.len());
         let wanted = rough + springs.max(least) as usize;
-        // Where the last pass by the law comes to the root itself, the arithmetic of the
-        // control decides whether it still makes one at the full depth then.
-        let last = thread.first * (law.len() as f64).sqrt();
-        let meets = thread.passes.is_none() && (last - thread.depth).abs() <= ROUNDED * gauge.step;
-        if full == wanted || in_cycle && meets && full == wanted + 1 {
+        // Where a pass by the law comes to the root itself, the arithmetic of the control decides
+        // whether that is one more pass at the full depth.
+        let meets = |pass: usize| {
+            let depth = thread.first * (pass as f64).sqrt();
+            (depth - thread.depth).abs() <= ROUNDED * gauge.step
+        };
+        let meets =
+            thread.passes.is_none() && [law.len(), count - full + 1].map(meets).contains(&true);
+        if full == wanted || in_cycle && meets && full.abs_diff(wanted) == 1 {
             return Ok(());
         }
         Err(format!("{full} passes at the root, there should be {wanted}"))

@@ -233,7 +233,7 @@ impl<'a, C: Steps> Verifier<'a, C> {
                 self.ask_auxiliary(step.line, self.settings.override_lock(*on))
             }
             ExpectedStep::RigidTap if self.settings.is_mill_turn() && self.expected.mills() => {}
-            ExpectedStep::RigidTap => self.ask_auxiliary(step.line, self.settings.rigid_tap_mode()),
+            ExpectedStep::RigidTap => self.ask_rigid_ahead(step.line),
             ExpectedStep::Clamp(on) => self.ask_auxiliary(step.line, self.settings.clamp_code(*on)),
             ExpectedStep::Auxiliary(code) => self.auxiliary(step.line, *code),
             ExpectedStep::Unfollowed => self.expected.unfollowed = true,

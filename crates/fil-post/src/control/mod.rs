@@ -314,6 +314,11 @@ impl Control {
         self.codes.chooses_offset(code)
     }
 
+    /// True for an M function that ends the program.
+    pub fn ends_main_program(&self, code: FunctionCode) -> bool {
+        self.codes.ends_main_program(code)
+    }
+
     /// The letter a setting names.
     ///
     /// # Errors

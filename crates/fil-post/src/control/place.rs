@@ -2,6 +2,7 @@
 
 use fil_diag::Result;
 use fil_machine::Letter;
+use fil_machine::axes::AxisSet;
 use fil_machine::commons::{EMPTY, Kind, LAST_OUTPUT};
 use fil_machine::locations::{self as loc, RapidSplit};
 
@@ -146,9 +147,14 @@ impl Control {
         }
     }
 
-    /// A tool change may have moved all axes.
+    /// A tool change may have moved all axes but those that CLAMP holds.
     pub fn tool_change_moves(&mut self) {
-        for number in self.tables.present().numbers() {
+        let held = match !self.tables.clamps && self.state.is(modal::AXIS_CLAMP, true) {
+            true => AxisSet::ROTARY,
+            false => AxisSet::NONE,
+        };
+        let present = self.tables.present();
+        for number in present.numbers().filter(|number| !held.has(*number)) {
             self.state.tool_change_moves(self.tables.axis(number).letter);
         }
     }

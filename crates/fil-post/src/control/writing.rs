@@ -3,6 +3,7 @@
 
 use fil_diag::Result;
 use fil_machine::Letter;
+use fil_machine::axes::{AXES, AxisSet};
 use fil_machine::letters::{G, M};
 use fil_machine::locations as loc;
 use fil_machine::modes::Plane;
@@ -10,7 +11,7 @@ use fil_machine::modes::Plane;
 use super::edit::plain;
 use super::left_out::{Edit, Maker};
 use super::word_address::modes;
-use super::{Compensation, Control, Function, program, speed_of_others, texts};
+use super::{Compensation, Control, Function, full_turn, program, speed_of_others, texts};
 use crate::cause::Cause;
 use crate::control::needs::Act;
 use crate::control_state::modal::{self, Group, Value};
@@ -31,8 +32,10 @@ pub struct BeforeOthers {
     plane: Option<Plane>,
     /// The length of the tool is taken off by the edge of none, on a SINUMERIK.
     without_edge: bool,
-    /// Where the rotary axes stand.
-    rotary: [Option<f64>; 2],
+    /// Where the axes stand.
+    stood: [Option<f64>; AXES],
+    /// The rotary ones may be clamped.
+    clamped: bool,
     /// Under tool-tip control: what counts in it.
     frame: Option<Frame>,
 }
@@ -250,7 +253,8 @@ impl Control {
             compensated: self.is_compensated(),
             plane: self.state.get(modal::PLANE),
             without_edge: self.sinumerik.edge() == Some(0),
-            rotary: [3, 4].map(|number| self.stands(number)),
+            stood: std::array::from_fn(|number| self.stands(number)),
+            clamped: self.state.may_be(modal::AXIS_CLAMP, true),
             frame: self.frame_of_tip(),
         })
     }
@@ -310,7 +314,7 @@ impl Control {
         {
             return Some("the block changes the tool while cutter compensation is on");
         }
-        if [3, 4].map(|number| self.stands(number)) != before.rotary {
+        if [3, 4].iter().any(|number| self.stands(*number) != before.stood[*number]) {
             return Some("the block turns the machine while cutter compensation is on");
         }
         let plane = self.state.get(modal::PLANE);
@@ -318,12 +322,25 @@ impl Control {
         is_other.then_some("the block changes the plane while cutter compensation is on")
     }
 
+    /// Refuses a turn of clamped axes by a block of an author or of the settings.
+    fn refuse_turn_in_clamp(&self, before: &BeforeOthers) -> Result<()> {
+        if !before.clamped {
+            return Ok(());
+        }
+        let moved = |number: &usize| {
+            self.stands(*number).is_some_and(|now| before.stood[*number] != Some(now))
+        };
+        let moved = AxisSet::ALL.numbers().filter(moved).map(AxisSet::of);
+        full_turn::refuse_clamped(self, moved.fold(AxisSet::NONE, AxisSet::or))
+    }
+
     /// Doubts what an author's block has changed within cutter compensation or tool center point
     /// control, which go on behind it.
     ///
     /// # Errors
-    /// The doubt, by its level.
+    /// The doubt, by its level; a turn of what is clamped.
     pub fn doubt_changes(&mut self, before: BeforeOthers) -> Result<()> {
+        self.refuse_turn_in_clamp(&before)?;
         let changed = self.changed_in_compensation(&before);
         match changed.or_else(|| self.changed_under_tip_control(&before)) {
             Some(what) => {

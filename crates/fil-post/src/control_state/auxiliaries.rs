@@ -2,7 +2,7 @@
 //! rotary axes, tool changes, calls and the end of the program.
 
 use fil_machine::FunctionCode;
-use fil_machine::functions::ProgramEnd;
+use fil_machine::functions::{Call, ProgramEnd};
 
 use super::codes::Codes;
 use super::modal::{
@@ -29,7 +29,10 @@ impl ControlState {
             return;
         }
         let does = |meaning| meanings.contains(&meaning);
-        if does(Meaning::ProgramEnd(ProgramEnd::Program)) {
+        // The end of a subprogram behind the main program ends what is written.
+        let is_behind_end = self.groups.written(PROGRAM_END) > 0;
+        let returns = does(Meaning::Call(Call::Return));
+        if does(Meaning::ProgramEnd(ProgramEnd::Program)) || is_behind_end && returns {
             self.set(PROGRAM_END, true);
         }
         if does(Meaning::MasterSpindle) {

@@ -185,6 +185,12 @@ impl Codes {
         self.auxiliaries(code).any(|row| is_end(row.meaning))
     }
 
+    /// True for a code that ends the main program.
+    pub fn ends_main_program(&self, code: FunctionCode) -> bool {
+        let end = Meaning::ProgramEnd(functions::ProgramEnd::Program);
+        self.auxiliaries(code).any(|row| row.meaning == end)
+    }
+
     /// True for a code that switches coolant on or off.
     pub fn is_coolant(&self, code: FunctionCode) -> bool {
         self.auxiliaries(code).any(|row| matches!(row.meaning, Meaning::Coolant(_)))

@@ -357,6 +357,8 @@ impl ControlState {
     pub fn program_begins(&mut self) {
         self.set(PROGRAM_END, false);
         self.doubt_all(Source::Author);
+        // The tool and its length are the caller's.
+        self.set(LENGTH, Length::Unsaid);
         // Its first motions are those of any program: where the tool stands is the caller's.
         AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.settle(letter));
     }

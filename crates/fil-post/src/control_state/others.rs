@@ -88,6 +88,11 @@ impl ControlState {
         let ways = self.learn_functions(words, codes, by_letter);
         let has = |letters: &[u8]| words.iter().any(|(letter, _)| letters.contains(&letter.byte()));
         self.learn_ways(words, ways, codes);
+        if ways.length {
+            // A position beside the code of a length offset counts with the new length.
+            let axes = words.iter().filter(|(letter, _)| is_axis(*letter));
+            axes.for_each(|(letter, _)| self.trust(*letter));
+        }
         let cycle = cycle || !self.is(CYCLE, false);
         // In a cycle a position drills, and its level can be one too.
         let drills = cycle && has(b"XYZABCR");

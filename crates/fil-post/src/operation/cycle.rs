@@ -48,10 +48,9 @@ pub struct Cycle {
     pub depth: f64,
     /// R level above the hole's start.
     pub clear: f64,
-    /// Level above the hole's start to retract to; 0 is the level before the cycle.
+    /// Level above the hole's start to retract to, and to come from; 0 is the level before the
+    /// cycle.
     pub retract: Option<f64>,
-    /// The tool goes down to the level of `retract` before the first hole: RAPTO from CLEAR.
-    pub goes_down: bool,
     /// Peck.
     pub step: Option<f64>,
     /// Dwell at the bottom, seconds.

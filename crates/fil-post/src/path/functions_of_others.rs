@@ -1,6 +1,6 @@
 //! The functions in what others write: texts, POSTN, REPEAT, PREFUN and AUXFUN.
 
-use fil_machine::{FunctionCode, Letter, letters};
+use fil_machine::{FunctionCode, Letter};
 
 use crate::operation::Operation;
 
@@ -10,8 +10,9 @@ pub(super) fn has(operation: &Operation, is_meant: impl Fn(Letter, FunctionCode)
         FunctionCode::of_value(value).is_some_and(|code| is_meant(letter, code))
     };
     match operation {
-        Operation::Function(letter, code) => is_meant(*letter, *code),
-        Operation::WithMotion(code) => is_meant(letters::M, *code),
+        Operation::Function(letter, code) | Operation::WithMotion(letter, code) => {
+            is_meant(*letter, *code)
+        }
         Operation::Words(words) | Operation::Repeat(words) => {
             words.iter().any(|(letter, value, _)| by_value((*letter, *value)))
         }

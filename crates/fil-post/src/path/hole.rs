@@ -411,7 +411,9 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
     // The control returns to where it stood when its cycle began, which is lower than the level
     // before ours where another cycle has left the tool on its R level.
     let of_control = cycle.in_force.map(|last| last.initial).or(here);
-    let goes_down = cycle.goes_down && here.is_some_and(|here| above(here, wanted) > rounding);
+    let is_named = cycle.retract.is_some_and(|retract| retract > 0.0);
+    let is_high = here.is_some_and(|here| above(here, wanted) > rounding);
+    let goes_down = is_named && above(wanted, hole.clear) > SAME_LEVEL && is_high;
     let moves = below || goes_down;
     let level = if moves { wanted } else { of_control.or(initial).unwrap_or(wanted) };
     if moves || unknown {
@@ -426,7 +428,7 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
             rapid::rapid(control, &motion, cause)
         })?;
     }
-    if cycle.retract.is_some_and(|retract| retract > 0.0) && above(level, wanted) > SAME_LEVEL {
+    if is_named && above(level, wanted) > SAME_LEVEL {
         let message = "CYCLE: the return plane is below the initial plane; the tool returns to the initial plane";
         post.warn(PostCode::IgnoredPart, message.to_string());
     }

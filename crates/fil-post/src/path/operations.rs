@@ -5,14 +5,13 @@ use super::{
     machine_position, mill_turn, position, rotary, skip, tip_control, tool_change, way_home,
     whole_thread,
 };
+use crate::control::length_plane;
 use crate::control::needs::Act;
 use crate::control::word_address::motion;
-use crate::control::{full_turn, length_plane};
-use crate::control_state::modal;
 use crate::operation::Operation;
 use crate::post::Post;
 use fil_diag::Result;
-use fil_machine::axes::AxisSet;
+use fil_machine::letters;
 
 /// Carries out an operation: its blocks are on the tape when this returns, of an arc in very many
 /// blocks the first ones.
@@ -62,7 +61,10 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     skip::note(post, &operation);
     match operation {
         Operation::Text(_) | Operation::Words(_) => write_of_others(post, operation),
-        Operation::Function(..) => {
+        Operation::Function(letter, code) => {
+            if letter == letters::M && post.control.ends_main_program(code) {
+                way_home::before_end(post)?;
+            }
             write_other(post, operation)?;
             compensation_side::refuse_of_others(post)
         }
@@ -77,15 +79,9 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
 fn write_of_others(post: &mut Post, operation: Operation) -> Result<()> {
     let by_words = matches!(operation, Operation::Words(_));
     let stood = position::stands(&post.control);
-    let is_clamped = post.control.state.may_be(modal::AXIS_CLAMP, true);
     write_other(post, operation)?;
     compensation_side::refuse_of_others(post)?;
     let stands = position::stands(&post.control);
-    if is_clamped {
-        let moved = |n: &usize| stands[*n].is_some() && stands[*n] != stood[*n];
-        let moved = AxisSet::ALL.numbers().filter(moved).map(AxisSet::of);
-        full_turn::refuse_clamped(&post.control, moved.fold(AxisSet::NONE, AxisSet::or))?;
-    }
     if stands != stood {
         rotary::refuse_past_travel(&post.control, stood, stands)?;
         frame::refuse_turned(&post.control, [stood[3], stood[4]])?;

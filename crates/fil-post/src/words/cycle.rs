@@ -73,8 +73,7 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
     let Levels { clear, travel } = clearance(post, items, &mut words.clear)?;
     let step = step(post, items, kind, &mut words.step)?;
     say_how_chips_break(post, items, kind)?;
-    let returns = return_level(items)?;
-    let retract = returns.or(travel);
+    let retract = return_level(items)?.or(travel);
     let all_rigid = post.control.commons.read(loc::CYCLE_TAP_RIGID);
     let rigid = kind == CycleKind::Tap && (items.flag(w::HIGH) || all_rigid);
     if kind == CycleKind::Tap && !rigid {
@@ -101,7 +100,6 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         depth,
         clear,
         retract,
-        goes_down: returns.is_none() && travel.is_some(),
         step,
         dwell: dwell.or(usual_dwell).unwrap_or(0.0),
         feed,

@@ -1,35 +1,37 @@
-//! PREFUN/n and AUXFUN/n\[,NEXT]: a preparatory or auxiliary function by its number.
+//! PREFUN/n\[,NEXT] and AUXFUN/n\[,NEXT]: a preparatory or auxiliary function by its number.
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
-use fil_machine::FunctionCode;
 use fil_machine::letters::{G, M};
+use fil_machine::{FunctionCode, Letter};
 
 use crate::items::Items;
 use crate::operation::Operation;
 use crate::path::carry_out;
 use crate::post::Post;
 
-/// Writes G n in a block of its own.
+/// Writes G n in a block of its own, or with NEXT in that of the next motion.
 ///
 /// # Errors
 /// No number, or one that no function has.
 pub fn prefun(post: &mut Post, items: &mut Items) -> Result<()> {
-    let code = code(post, items)?;
-    items.deny_rest()?;
-    carry_out(post, Operation::Function(G, code))
+    write(post, items, G)
 }
 
-/// Writes M n in a block of its own, or with NEXT in that of the next motion.
+/// The same with M n.
 ///
 /// # Errors
 /// No number, or one that no function has.
 pub fn auxfun(post: &mut Post, items: &mut Items) -> Result<()> {
+    write(post, items, M)
+}
+
+fn write(post: &mut Post, items: &mut Items, letter: Letter) -> Result<()> {
     let code = code(post, items)?;
     let next = items.flag(w::NEXT);
     items.deny_rest()?;
-    let operation = if next { Operation::WithMotion(code) } else { Operation::Function(M, code) };
-    carry_out(post, operation)
+    let of = if next { Operation::WithMotion } else { Operation::Function };
+    carry_out(post, of(letter, code))
 }
 
 /// The function of the number.

@@ -43,7 +43,9 @@ impl TomlReader<'_> {
                 "spec" => SPECIFICATIONS,
                 "char" => CHARACTERS,
                 other => {
-                    self.refuse(field.span(), unknown(&format!("no field `{other}`")));
+                    let fields = "an address has slot, format, spec and char";
+                    let diag = unknown(&format!("no field `{other}`")).hint(fields);
+                    self.refuse(field.span(), diag);
                     continue;
                 }
             };

@@ -19,7 +19,7 @@ pub use options::{declare_fil_options, given_options};
 
 use std::ops::Range;
 
-use fil_diag::suggest::did_you_mean;
+use fil_diag::suggest::meant_in_group;
 use fil_diag::{Diag, LineIndex, Result, TextSpan};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -142,9 +142,11 @@ fn base_commons(
 ) -> Result<Commons, Vec<Diag>> {
     let name = value.get_ref().as_str().unwrap_or_default();
     let Some(base) = bases(name) else {
-        let diag =
-            Diag::new(MachineCode::SettingValue, format!("no machine `{name}` to begin from"))
-                .hint("base names a ready post: base = \"fanuc-mill\"");
+        let diag = Diag::new(
+            MachineCode::SettingValue,
+            format!("no machine `{name}` to begin from"),
+        )
+        .hint("base names a ready post, as in base = \"fanuc-mill\"; `filpost posts` lists them");
         return Err(vec![*TomlReader::new(file, text).at(value.span(), diag)]);
     };
     let mut given = given;
@@ -360,7 +362,8 @@ impl<'a> TomlReader<'a> {
         }
         let Some(location) = Location::named(name) else {
             let mut diag = Diag::new(MachineCode::UnknownSetting, format!("no setting `{name}`"));
-            diag.hint = did_you_mean(name, loc::TABLE.iter().map(|row| row.name));
+            let lists = user_blocks::LISTS.iter().map(|(name, _)| *name);
+            diag.hint = meant_in_group(name, loc::TABLE.iter().map(|row| row.name).chain(lists));
             return Err(self.at(key, diag));
         };
         let number = self.value(location, value)?;

@@ -69,7 +69,9 @@ impl TomlReader<'_> {
             self.at(span, Diag::new(MachineCode::SettingValue, message))
         };
         let DeValue::Array(items) = value.get_ref() else {
-            return Err(wrong(value.span(), "a list of texts is needed here".into()));
+            let mut refused = wrong(value.span(), "a list of texts is needed here".into());
+            refused.hint = Some("put brackets around the text: [\"G54\"]".into());
+            return Err(refused);
         };
         if items.len() > most {
             return Err(wrong(value.span(), format!("at most {most} texts fit")));

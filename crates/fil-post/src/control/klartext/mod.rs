@@ -76,10 +76,11 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
         Operation::Compensation(compensation) => compensate(control, compensation),
         Operation::SelectTool(tool) => tool::select(control, tool),
         Operation::Function(letter, code) => function(control, letter, code),
-        Operation::WithMotion(code) => {
+        Operation::WithMotion(M, code) => {
             refuse_auxiliary(code)?;
             word_address::write(control, operation)
         }
+        Operation::WithMotion(letter, code) => function(control, letter, code),
         Operation::Words(words) => words::write(control, &words),
         Operation::Repeat(words) => repeat::set(control, words),
         Operation::WorkOffset(number) => datum::write(control, number),

@@ -41,7 +41,7 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
         Operation::SelectTool(tool) => tool::select(control, tool),
         Operation::Function(letter, code) => function::write(control, letter, code),
         Operation::WorkOffset(number) => fixture::write(control, number),
-        Operation::WithMotion(code) => function::with_motion(control, code),
+        Operation::WithMotion(letter, code) => function::with_motion(control, letter, code),
         Operation::Words(words) => control.write_words(&words),
         Operation::Repeat(words) => repeat::set(control, words),
         Operation::Text(blocks) => text::insert(control, &blocks),
