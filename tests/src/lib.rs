@@ -3,6 +3,7 @@
 pub mod audit;
 pub mod back_check;
 pub mod browser;
+pub mod cases;
 pub mod cl_file;
 pub mod cl_path;
 pub mod compare;
@@ -22,6 +23,7 @@ pub mod nc_path;
 pub mod oracle;
 pub mod path;
 pub mod picture;
+pub mod plausible;
 pub mod posting;
 pub mod programs;
 pub mod random;

@@ -2,6 +2,7 @@
 //! test of its own. `cargo test -p filpost-tests --test files words/` runs those of a suite.
 
 mod audit;
+mod cases;
 mod corpus;
 mod diff;
 mod howto;
@@ -15,6 +16,7 @@ use libtest_mimic::Arguments;
 fn main() {
     let suites = [
         audit::trials,
+        cases::trials,
         corpus::trials,
         diff::trials,
         howto::trials,

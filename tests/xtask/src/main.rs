@@ -8,6 +8,7 @@ mod metrics;
 mod new;
 #[cfg(test)]
 mod pages;
+mod plausible;
 #[cfg(test)]
 mod public;
 mod shadow;
@@ -25,6 +26,7 @@ enum Command {
     NewCode(new::CodeArgs),
     NewPost(new::PostArgs),
     NewWord(new::WordArgs),
+    Plausible(plausible::Args),
     Shadow(shadow::Args),
 }
 
@@ -35,6 +37,7 @@ fn main() -> ExitCode {
         Command::NewCode(args) => new::code(&args),
         Command::NewPost(args) => new::post(&args),
         Command::NewWord(args) => new::word(&args),
+        Command::Plausible(args) => plausible::command(&args),
         Command::Shadow(args) => shadow::command(&args),
     };
     done.unwrap_or_else(|said| {
