@@ -30,6 +30,9 @@ struct Outcome {
     found: Vec<String>,
 }
 
+/// The causes of one kind.
+type Causes = fn(&Outcome) -> &Vec<String>;
+
 /// Runs `cargo xtask plausible`.
 ///
 /// # Errors
@@ -49,7 +52,7 @@ pub fn command(args: &Args) -> Result<ExitCode, String> {
         })
         .collect::<Result<_, String>>()?;
     println!("{} parts", outcomes.len());
-    let kinds: [(&str, fn(&Outcome) -> &Vec<String>); 3] = [
+    let kinds: [(&str, Causes); 3] = [
         ("refused", |outcome| &outcome.refused),
         ("warned of", |outcome| &outcome.warned),
         ("found by verify", |outcome| &outcome.found),
@@ -60,7 +63,7 @@ pub fn command(args: &Args) -> Result<ExitCode, String> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn print(title: &str, outcomes: &[(String, Outcome)], causes: fn(&Outcome) -> &Vec<String>) {
+fn print(title: &str, outcomes: &[(String, Outcome)], causes: Causes) {
     let mut by_cause: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for (part, outcome) in outcomes {
         for cause in causes(outcome) {
