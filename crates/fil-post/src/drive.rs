@@ -169,6 +169,7 @@ fn target(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<T
         Some(axis) => {
             let axis = word::goto::checked_axis(post, Vector3::from(axis))?;
             post.path.axis.in_doubt = false;
+            post.path.axis.is_said = true;
             if post.path.is_moved_by(Statement::AuthorBlock) {
                 index::turns_by_points(post);
             }

@@ -74,6 +74,8 @@ pub struct Path {
 pub struct ToolAxis {
     /// That of points that give none: that of the last point, or of TLAXIS.
     pub given: Vector3<f64>,
+    /// A record has given one since MULTAX/OFF: the file is of more than three axes.
+    pub(crate) is_said: bool,
     /// A frame has turned under a leaning axis, which motions can't take over without saying it.
     pub(crate) in_doubt: bool,
     /// That in which the last motion has left the machine.
@@ -82,7 +84,7 @@ pub struct ToolAxis {
 
 impl Default for ToolAxis {
     fn default() -> Self {
-        ToolAxis { given: Vector3::z(), in_doubt: false, stands: Vector3::z() }
+        ToolAxis { given: Vector3::z(), is_said: false, in_doubt: false, stands: Vector3::z() }
     }
 }
 

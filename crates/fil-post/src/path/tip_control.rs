@@ -35,8 +35,8 @@ pub(super) const OUTSIDE: &str = "Outside MULTAX/ON, cuts along Z with the rotar
 const WHERE_IT_STANDS: &str = "Put a GOTO after the text or the words that move the tool, or set rotary.tip_end_retract = 0 for a control that does not move at G49.";
 
 /// Chooses between tool-tip control and positions of the axes for a motion outside of MULTAX/ON:
-/// where the tool lies as it does with all rotary axes at zero, and they stand there or may turn there
-/// away from the part, the program is that of a machine without them.
+/// where no record gives a tool axis, the tool lies as it does with all rotary axes at zero, and they
+/// stand there or may turn there away from the part, the program is that of a machine without them.
 pub(super) fn choose(post: &mut Post, target: Target, at_feed: bool) {
     let tables = &post.control.tables;
     if !tables.tip_output || tables.frame_output {
@@ -48,7 +48,10 @@ pub(super) fn choose(post: &mut Post, target: Target, at_feed: bool) {
     let stands = post.path.rotary.unwrap_or_else(|| position::on_tape(post));
     let may_turn = post.control.tip.is_away && !at_feed;
     let is_at_zero = frame::still(stands, [0.0; 2]) || may_turn;
-    post.path.is_upright = is_along && is_at_zero && chain.reaches([0.0; 2]);
+    // In force it stays, as its end would come in the cut.
+    let is_free = !post.control.may_name_tip();
+    let is_in_three_axes = is_free && is_along && !post.path.axis.is_said;
+    post.path.is_upright = is_in_three_axes && is_at_zero && chain.reaches([0.0; 2]);
 }
 
 /// Ends tool-tip control before a motion that is written without it: the tool is at the part then.

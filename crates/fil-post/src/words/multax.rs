@@ -25,6 +25,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if off {
         post.path.axis.in_doubt = false;
         post.path.axis.given = Vector3::z();
+        post.path.axis.is_said = false;
     }
     Ok(())
 }
@@ -49,6 +50,7 @@ pub fn tlaxis(post: &mut Post, items: &mut Items) -> Result<()> {
     }
     csys::settle_moves(post)?;
     post.path.axis.in_doubt = false;
+    post.path.axis.is_said = true;
     post.path.axis.given = axis;
     Ok(())
 }
