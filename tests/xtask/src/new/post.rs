@@ -22,39 +22,43 @@ pub fn write(tree: &mut Tree, args: &Args) -> Result<String, String> {
     if name.is_empty() || !name.chars().all(is_plain) {
         return Err(format!("`{name}`: a name has small letters, digits and hyphens"));
     }
-    if filpost::ready::find(base).is_none() {
+    let Some(begins_from) = filpost::ready::find(base) else {
         return Err(format!("there is no ready post {base}"));
-    }
+    };
     let folder = format!("fil-scripts/posts/{name}");
-    tree.create(
-        &format!("{folder}/machine.toml"),
-        &format!("name = \"{name}\"\nbase = \"{base}\"\n\n# What differs from {base}, each with its reason.\n"),
-    )?;
+    // A ready post has all its settings: what changes in the base is no change of it.
+    let named = |line: &str| match line.starts_with("name = ") {
+        true => format!("name = \"{name}\"\n"),
+        false => format!("{line}\n"),
+    };
+    let machine: String = begins_from.machine.lines().map(named).collect();
+    tree.create(&format!("{folder}/machine.toml"), &machine)?;
     tree.create(&format!("{folder}/README.md"), &readme(name, base))?;
     let row = format!("    \"{name}\",");
     tree.change("fil-scripts/posts.rs", |text| with_line(text, "ready![", "    \"", &row))?;
     let row = format!("| `{name}` | which machines and controls |");
     tree.change("docs/machine.md", |text| with_line(text, "| `brother-mill` |", "| `", &row))?;
-    let case = format!("corpus/posts/{name}/two-tools");
-    tree.create(
-        &format!("{case}/case.toml"),
-        &format!("cl = \"../../cl/mill-two-tools.ncl\"\nready = \"{name}\"\nexpect = \"part.nc\"\norigin = \"ours\"\n"),
-    )?;
+    let cases = "corpus/posts";
+    let case = tree.read(&format!("{cases}/{base}/production/case.toml"))?;
+    let case = case.replace(&format!("ready = \"{base}\""), &format!("ready = \"{name}\""));
+    tree.create(&format!("{cases}/{name}/production/case.toml"), &case)?;
     Ok(format!(
         "{}\nTo do:\n\
-         1. {folder}/machine.toml: the settings (docs/reference/settings.md), each with its reason.\n\
+         1. {folder}/machine.toml, a copy of {base}: change what differs (docs/reference/settings.md), each with its reason.\n\
          2. {folder}/README.md: what is assumed of the control, by which manual, and what is refused.\n\
          3. docs/machine.md: the machines in ten words.\n\
          4. The program: FILPOST_UPDATE=1 cargo test -p filpost-tests --test files posts/{name}; read it as the \
          operator would.\n\
-         5. The judge: cargo test -p filpost-tests --test all verify::",
+         5. Its page: FILPOST_UPDATE=1 cargo test -p filpost-tests --test all reference:: puts the program there.\n\
+         6. The judge: cargo test -p filpost-tests --test all verify::",
         tree.told()
     ))
 }
 
 fn readme(name: &str, base: &str) -> String {
     format!(
-        "# {name}\n\nFor which machines and controls; by which manual.\n\nIt begins from `{base}`.\n\n## Assumed\n\n\
-         - What the control must have set.\n\n## Refused\n\n- What this post does not do.\n"
+        "# {name}\n\nFor which machines and controls; by which manual.\n\nIt began as a copy of `{base}`.\n\n## Assumed\n\n\
+         - What the control must have set.\n\n## Refused\n\n- What this post does not do.\n\n\
+         ## Its program\n\n```nc\n```\n"
     )
 }

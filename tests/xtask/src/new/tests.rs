@@ -13,6 +13,7 @@ const CHANGED: &[&str] = &[
     "crates/fil-post/src/dispatch.rs",
     "crates/fil-post/src/errors.rs",
     "crates/fil-post/src/words/mod.rs",
+    "corpus/posts/fanuc-mill/production/case.toml",
     "docs/SUMMARY.md",
     "docs/compat.md",
     "docs/machine.md",
@@ -58,25 +59,25 @@ fn a_new_word_is_in_all_its_places() {
         minors: minors.iter().map(|minor| minor.to_string()).collect(),
     };
     assert!(word::write(&mut tree, &args("breset", &[])).is_err(), "no word of the vocabulary");
-    assert!(word::write(&mut tree, &args("chuck", &["opne"])).is_err(), "no word either");
-    let told = word::write(&mut tree, &args("chuck", &["open", "ON"])).unwrap();
+    assert!(word::write(&mut tree, &args("dyndmp", &["drak"])).is_err(), "no word either");
+    let told = word::write(&mut tree, &args("dyndmp", &["dark", "ON"])).unwrap();
     for (file, line) in [
-        ("crates/fil-post/src/words/mod.rs", "pub mod chuck;"),
-        ("crates/fil-post/src/dispatch.rs", "    (w::CHUCK, I(word::chuck::handle)),"),
-        ("crates/fil-nc/src/verify/cl_path/words.rs", "    (w::CHUCK, Ignored(NO_PROGRAM)),"),
-        ("crates/fil-cl/src/words.rs", "        OPEN,"),
-        ("docs/compat.md", "| CHUCK | refused: what it does is not known | our own | - |"),
-        ("docs/SUMMARY.md", "  - [CHUCK](reference/word-CHUCK.md)"),
-        ("tests/reference/words.txt", "# CHUCK"),
+        ("crates/fil-post/src/words/mod.rs", "pub mod dyndmp;"),
+        ("crates/fil-post/src/dispatch.rs", "    (w::DYNDMP, I(word::dyndmp::handle)),"),
+        ("crates/fil-nc/src/verify/cl_path/words.rs", "    (w::DYNDMP, Ignored(NO_PROGRAM)),"),
+        ("crates/fil-cl/src/words.rs", "        DARK,"),
+        ("docs/compat.md", "| DYNDMP | refused: what it does is not known | our own | - |"),
+        ("docs/SUMMARY.md", "  - [DYNDMP](reference/word-DYNDMP.md)"),
+        ("tests/reference/words.txt", "# DYNDMP"),
     ] {
         has_new_line(folder.path(), file, line);
         assert!(told.contains(file), "{told}");
     }
-    for file in ["crates/fil-post/src/words/chuck.rs", "tests/words/chuck-is-refused.ncl"] {
+    for file in ["crates/fil-post/src/words/dyndmp.rs", "tests/words/dyndmp-is-refused.ncl"] {
         assert!(folder.path().join(file).is_file(), "{file}");
     }
-    syn::parse_file(&read(folder.path(), "crates/fil-post/src/words/chuck.rs")).unwrap();
-    assert!(word::write(&mut tree, &args("CHUCK", &[])).is_err(), "it is there");
+    syn::parse_file(&read(folder.path(), "crates/fil-post/src/words/dyndmp.rs")).unwrap();
+    assert!(word::write(&mut tree, &args("DYNDMP", &[])).is_err(), "it is there");
 }
 
 #[test]
@@ -84,8 +85,8 @@ fn a_new_code_is_in_all_its_places() {
     let (folder, mut tree) = copy();
     let args = code::Args {
         crate_name: "fil-post".into(),
-        variant: "ChuckOpen".into(),
-        title: "spindle with an open chuck".into(),
+        variant: "OfATestAlone".into(),
+        title: "code of a test alone".into(),
         kind: "error".into(),
     };
     let told = code::write(&mut tree, &args).unwrap();
@@ -93,12 +94,12 @@ fn a_new_code_is_in_all_its_places() {
     assert!(filpost::all_codes().iter().all(|code| code.name()[1..] != number[1..]), "{number}");
     let row = format!("  - [{number}](errors/{number}.md)");
     has_new_line(folder.path(), "docs/SUMMARY.md", &row);
-    let row = format!("| [{number}]({number}.md) | spindle with an open chuck |");
+    let row = format!("| [{number}]({number}.md) | code of a test alone |");
     has_new_line(folder.path(), "docs/errors/README.md", &row);
     has_new_line(folder.path(), "tests/api/codes.txt", &number[1..]);
     let table = read(folder.path(), "crates/fil-post/src/errors.rs");
     syn::parse_file(&table).unwrap();
-    assert!(table.contains("ChuckOpen = "));
+    assert!(table.contains("OfATestAlone = "));
     assert!(code::write(&mut tree, &args).is_err(), "it is there");
 }
 
@@ -106,18 +107,25 @@ fn a_new_code_is_in_all_its_places() {
 fn a_new_post_is_in_all_its_places() {
     let (folder, mut tree) = copy();
     let args = |name: &str, base: &str| post::Args { name: name.into(), base: base.into() };
-    for (name, base) in [("Fadal", "fanuc-mill"), ("fadal-mill", "no-such-post")] {
+    for (name, base) in [("Fadal", "fanuc-mill"), ("no-such-mill", "no-such-post")] {
         assert!(post::write(&mut tree, &args(name, base)).is_err(), "{name} {base}");
     }
-    post::write(&mut tree, &args("fadal-mill", "fanuc-mill")).unwrap();
-    has_new_line(folder.path(), "fil-scripts/posts.rs", "    \"fadal-mill\",");
+    post::write(&mut tree, &args("no-such-mill", "fanuc-mill")).unwrap();
+    has_new_line(folder.path(), "fil-scripts/posts.rs", "    \"no-such-mill\",");
     has_new_line(
         folder.path(),
         "docs/machine.md",
-        "| `fadal-mill` | which machines and controls |",
+        "| `no-such-mill` | which machines and controls |",
     );
-    let machine = read(folder.path(), "fil-scripts/posts/fadal-mill/machine.toml");
+    let machine = read(folder.path(), "fil-scripts/posts/no-such-mill/machine.toml");
     filpost::Program::builder().machine("machine.toml", &machine).build().unwrap();
+    let case = read(folder.path(), "corpus/posts/no-such-mill/production/case.toml");
+    assert!(case.contains("ready = \"no-such-mill\"") && !case.contains("fanuc"), "{case}");
+    // It stands alone, as each ready post does.
+    let base = filpost::ready::find("fanuc-mill").expect("the base").machine;
+    assert_eq!(machine.lines().count(), base.lines().count());
+    assert!(machine.lines().any(|line| line == "name = \"no-such-mill\""));
+    assert!(!machine.lines().any(|line| line.starts_with("base = ")));
 }
 
 /// A ready post is judged where a case posts with it, as `verify` goes over each case.

@@ -58,7 +58,7 @@ pub fn write(tree: &mut Tree, args: &Args) -> Result<String, String> {
          3. docs/compat.md: forms, effect, grade, source.\n\
          4. tests/words/{module}-is-refused.ncl: the error that it keeps; a file beside it for what is written.\n\
          5. A code of its own: cargo xtask new-code.\n\
-         6. The pages: FILPOST_UPDATE=1 cargo test -p filpost-tests --test all reference::\n\
+         6. The pages: FILPOST_UPDATE=1 cargo test -p filpost-tests --test all -- reference:: verify::\n\
          7. cargo test -p filpost-tests --test files words/{module}",
         tree.told()
     ))
