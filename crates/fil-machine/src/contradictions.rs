@@ -19,6 +19,7 @@ use crate::commons::{Commons, Int};
 use crate::errors::MachineCode;
 use crate::frame_rules;
 use crate::full_turn;
+use crate::input_matrix::{FLAT, input_matrix};
 use crate::letter::{self, Letter};
 use crate::locations::{
     self as loc, ControlFamily, ControlTranslation, HomeFrame, ToolChangeBlock, ToolFormat,
@@ -59,6 +60,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     order_of_axes(commons, &mut found);
     head_before_table(commons, &mut found);
     shift_along(commons, &mut found);
+    flat_matrix(commons, &mut found);
     diameters(commons, &mut found);
     translation(commons, &mut found);
     frame_rules::check(commons, &mut found);
@@ -221,6 +223,17 @@ fn shift_along(commons: &Commons, found: &mut Vec<Diag>) {
     if shifts && AxisChain::from_commons(commons).is_ok_and(|chain| chain.has_rotary()) {
         found.push(contradiction(
             "input.along_tool_axis shifts the points, and the machine has a rotary axis".into(),
+        ));
+    }
+}
+
+/// The matrix of the input leaves a space.
+fn flat_matrix(commons: &Commons, found: &mut Vec<Diag>) {
+    let volume = |it: nalgebra::Matrix3x4<f64>| it.fixed_columns::<3>(0).into_owned().determinant();
+    if input_matrix(commons).is_some_and(|it| volume(it).abs() < FLAT) {
+        found.push(contradiction(
+            "input.matrix_ax to input.matrix_cz bring all points of the CL file into one plane"
+                .into(),
         ));
     }
 }

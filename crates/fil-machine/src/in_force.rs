@@ -5,7 +5,7 @@
 use fil_diag::Result;
 
 use crate::axis_chain::{AxisChain, Rotary};
-use crate::commons::{Commons, EMPTY};
+use crate::commons::{Commons, EMPTY, Kind};
 use crate::locations::Location;
 
 /// The value in force of the setting with this name, in any case of letters; `None` where no
@@ -16,6 +16,19 @@ use crate::locations::Location;
 pub fn in_force(commons: &Commons, name: &str) -> Option<Result<f64>> {
     let row = Location::named(&name.to_ascii_lowercase())?;
     Some(value(commons, row))
+}
+
+/// The value in force of a location: [`Commons::get`], but for a setting that was not given and
+/// follows from others.
+///
+/// # Errors
+/// A location out of range; a rotary axis whose direction has length zero.
+pub fn in_force_at(commons: &Commons, kind: Kind, location: u32) -> Result<f64> {
+    let stored = commons.get(kind, location)?;
+    match Location::numbered(kind, location).filter(|_| stored == EMPTY) {
+        Some(row) => value(commons, row),
+        None => Ok(stored),
+    }
 }
 
 fn value(commons: &Commons, row: &Location) -> Result<f64> {
@@ -71,6 +84,18 @@ mod tests {
         ] {
             assert_eq!(get(chain, name), value, "{name}");
         }
+    }
+
+    #[test]
+    fn a_location_has_what_its_name_has() {
+        let mut commons = default_commons();
+        lay_over(&mut commons, "machine.toml", "chain = \"table-a\"\n").expect("a machine");
+        let row = Location::named("rotary.primary_i").expect("a setting");
+        let at = |commons: &Commons| in_force_at(commons, row.kind, row.number.into());
+        assert_eq!(at(&commons).expect("a value"), 1.0);
+        commons.set(row.kind, row.number.into(), 0.5).expect("a value");
+        assert_eq!(at(&commons).expect("a value"), 0.5);
+        assert!(in_force_at(&commons, Kind::Dbl, 99_999).is_err());
     }
 
     #[test]

@@ -41,6 +41,7 @@ mod full_turn;
 pub mod function_code;
 pub mod functions;
 mod in_force;
+pub mod input_matrix;
 pub mod letter;
 pub mod locations;
 pub mod mill_turn;
@@ -65,7 +66,7 @@ pub mod zones;
 
 pub use commons::{Commons, Kind};
 pub use function_code::FunctionCode;
-pub use in_force::in_force;
+pub use in_force::{in_force, in_force_at};
 pub use letter::{Letter, letters};
 pub use modes::{FeedMode, Plane, Unit};
 

@@ -152,6 +152,22 @@ pub const CYCLE_CODES: [CodeAt; 11] = [
 /// What is added to X, Y and Z of each point of the input.
 pub const INPUT_TRANSLATE: [Dbl; 3] = [INPUT_TRANSLATE_X, INPUT_TRANSLATE_Y, INPUT_TRANSLATE_Z];
 
+/// The rows of the matrix that each point of the input goes through.
+pub const INPUT_MATRIX: [Dbl; 12] = [
+    INPUT_MATRIX_AX,
+    INPUT_MATRIX_BX,
+    INPUT_MATRIX_CX,
+    INPUT_MATRIX_DX,
+    INPUT_MATRIX_AY,
+    INPUT_MATRIX_BY,
+    INPUT_MATRIX_CY,
+    INPUT_MATRIX_DY,
+    INPUT_MATRIX_AZ,
+    INPUT_MATRIX_BZ,
+    INPUT_MATRIX_CZ,
+    INPUT_MATRIX_DZ,
+];
+
 /// X, Y and Z of the home position.
 pub const HOME: [Dbl; 3] = [HOME_X, HOME_Y, HOME_Z];
 

@@ -2,7 +2,7 @@
 //! axis chain. The tables are made anew when a setting or the unit has changed.
 
 use fil_diag::Result;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3x4, Vector3};
 
 use crate::Letter;
 use crate::address::Addresses;
@@ -12,6 +12,7 @@ use crate::commons::Commons;
 use crate::errors::MachineCode;
 use crate::frame_rules;
 use crate::full_turn;
+use crate::input_matrix::input_matrix;
 use crate::letter::letters::{F, IJK};
 use crate::locations::{self as loc, ControlFamily, MillTurnMode, RotaryTipForm, RotaryTipOutput};
 use crate::mill_turn;
@@ -85,6 +86,7 @@ pub struct MachineTables {
     last_digits: Position,
     written: AxisSet,
     input_shift: Vector3<f64>,
+    input_matrix: Option<Matrix3x4<f64>>,
     /// Where the control has its zero, X Y Z, mm or inch.
     zero: [f64; 3],
     made_for: Option<(u64, bool)>,
@@ -154,6 +156,7 @@ impl MachineTables {
             self.tip_output && commons.read(loc::ROTARY_TIP_FORM) == RotaryTipForm::Vectors;
         self.frame_output = self.chain.has_rotary() && frame_rules::asks_for_frames(commons);
         self.input_shift = input_shift(commons);
+        self.input_matrix = input_matrix(commons);
         let along = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).unwrap_or(0.0);
         self.most_departure =
             commons.dbl_opt(loc::LIMITS_MAX_DEPARTURE).filter(|most| *most != NO_DEPARTURE);
@@ -366,6 +369,12 @@ impl MachineTables {
     #[inline]
     pub fn last_digits(&self) -> &Position {
         &self.last_digits
+    }
+
+    /// The matrix that the machine sends each point of the input through, before the shift.
+    #[inline]
+    pub fn input_matrix(&self) -> Option<&Matrix3x4<f64>> {
+        self.input_matrix.as_ref()
     }
 
     /// What is added to each point of the input, mm or inch (DBLCOM 286 to 288 and 918).

@@ -57,6 +57,9 @@ impl Post {
     #[inline]
     pub fn begin(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<()> {
         self.control.refresh()?;
+        if word::trans::machine_has_changed(self) {
+            word::trans::follow_machine(self)?;
+        }
         if self.control.tape.noted.is_some() {
             let cause = self.control.tape.cause;
             self.control.block.cause = Cause { made_by_fil: record.line == 0, ..cause };

@@ -194,7 +194,7 @@ fn refused<T>(what: &str) -> Result<T> {
 
 impl Host for WhileWriting<'_> {
     fn common(&mut self, kind: CommonKind, location: u32) -> Result<f64> {
-        self.commons.get(common_kind(kind), location)
+        fil_machine::in_force_at(self.commons, common_kind(kind), location)
     }
 
     fn set_common(&mut self, _: CommonKind, location: u32, _: f64) -> Result<Option<Box<Diag>>> {

@@ -4,7 +4,7 @@ use std::io::{Read, Seek};
 
 use fil_cl::reader::{Options, Reader};
 use fil_machine::Unit;
-use fil_machine::commons::{Commons, Kind};
+use fil_machine::commons::Commons;
 use fil_nc::dialect::Dialect;
 use fil_nc::forward::Forward;
 use fil_nc::plot::{Drawing, LineCause, Notes, ToolShape, Trace, cl_tools, cl_trace, nc_trace};
@@ -43,10 +43,10 @@ pub struct ClText<'a> {
 }
 
 impl ClText<'_> {
-    fn trace(&self, shift: [f64; 3]) -> Result<Trace, Error> {
+    fn trace(&self, commons: Option<&Commons>) -> Result<Trace, Error> {
         let Text { name, bytes } = self.text;
         let reader = Reader::new(bytes, name, self.options);
-        cl_trace(reader, name, self.unit, shift).map_err(Error::Run)
+        cl_trace(reader, name, self.unit, commons).map_err(Error::Run)
     }
 
     /// The tools whose shape the file gives.
@@ -90,7 +90,7 @@ pub fn program(nc: Text<'_>, commons: &Commons) -> Result<Drawing, Error> {
 /// # Errors
 /// What the CL reader refuses; a file whose unit nobody says.
 pub fn cl_file(cl: ClText<'_>) -> Result<Drawing, Error> {
-    let (path, tools) = (cl.trace([0.0; 3])?, cl.tools()?);
+    let (path, tools) = (cl.trace(None)?, cl.tools()?);
     let cl = cl.text;
     let notes = notes(cl.bytes);
     Ok(Drawing { title: cl.name.to_string(), path, tools, notes, ..Drawing::default() })
@@ -108,12 +108,7 @@ pub fn lay_under(
 ) -> Result<(), Error> {
     let known = units::known_before(cl.unit, None, commons).map_err(Error::Run)?;
     cl.unit = known.map(|(unit, _)| unit);
-    let shift = ["input.translate_x", "input.translate_y", "input.translate_z"].map(|key| {
-        let row = fil_machine::locations::Location::named(key);
-        let value = row.and_then(|row| commons.get(Kind::Dbl, row.number.into()).ok());
-        value.filter(|value| *value != fil_machine::commons::EMPTY).unwrap_or(0.0)
-    });
-    drawing.under = Some(cl.trace(shift)?);
+    drawing.under = Some(cl.trace(Some(commons))?);
     drawing.under_name = "CL file";
     drawing.tools = cl.tools()?;
     drawing.take_tool_axes();

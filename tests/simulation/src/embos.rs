@@ -84,7 +84,7 @@ impl Cut {
     }
 }
 
-/// The cuts of a program on a table that leans so: motions with G01 in which X stays.
+/// The cuts of a program on a table that leans so: motions with G01 in which more than X moves.
 ///
 /// # Errors
 /// A block that is no block, a motion with G00 closer than `clear` to the axis, or a head that does
@@ -115,8 +115,9 @@ pub fn cuts(nc: &str, clear: f64, lean: f64) -> Result<Vec<Cut>, String> {
         if moves && rapid && !found.is_empty() && at[0].abs().min(from[0].abs()) < clear {
             return Err(format!("line {line}: rapid move at X {}", at[0]));
         }
-        // X may carry the last digit of a coarse CL file.
-        if !rapid && from != at && (from[0] - at[0]).abs() < 0.01 {
+        // In and out X moves alone, but for the last digit of a coarse CL file.
+        let goes_along = (1..4).any(|axis| (from[axis] - at[axis]).abs() > 0.01);
+        if !rapid && goes_along {
             found.push(Cut { line, from, to: at, lean });
         }
     }
@@ -156,7 +157,7 @@ fn along_the_axis(picture: &mut Picture, radius: f64) {
         picture.text([center, DISC + 4.0], name);
         picture.text([center, -DISC - 10.0], if side > 0.0 { "+X" } else { "-X" });
     }
-    picture.text([0.0, 0.0], "C");
+    picture.text([0.0, -18.0], "C");
     picture.text([0.0, 118.0], "along the axis of the cylinder");
 }
 
@@ -181,7 +182,7 @@ fn from_x(picture: &mut Picture, middle: [f64; 2], radius: f64, cuts: &[Cut]) {
         picture.line(&ends.map(|at| place(at.y, at.z)), FIRST);
     }
     picture.line(&[place(y - DISC, z), place(y + DISC, z)], Pen::full("black", 2.5));
-    picture.text(place(y, z + 3.0), "disc");
+    picture.text(place(y - DISC - 16.0, z - 3.5), "disc");
     picture.text(place(0.0, 118.0), "from +X: Y right, Z up");
 }
 

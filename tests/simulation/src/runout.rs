@@ -7,6 +7,7 @@
 //! relative to the part. X Y Z is the place of the tip while the head stands at B0.
 
 pub mod drawing;
+pub mod macro_b;
 pub mod solve;
 
 use std::fmt::Write as _;

@@ -32,10 +32,14 @@ pub struct Thread {
     pub root: f64,
     /// Angle between the flanks.
     pub angle: f64,
+    /// Angle of the flank towards the end of the thread, from the line square to the axis.
+    pub end_flank: f64,
     /// Width of the tool's nose.
     pub nose: f64,
     /// Angle between the tool's edges.
     pub tool_angle: f64,
+    /// Angle of the tool's edge towards the end of the thread.
+    pub end_edge: f64,
     /// Largest shift between two passes of a layer.
     pub shift: f64,
     /// Clearance over the crest.
@@ -59,19 +63,26 @@ impl Thread {
         self.pitch * f64::from(self.starts)
     }
 
-    /// Tangent of half the angle between the flanks.
-    pub fn flank(&self) -> f64 {
-        (self.angle / 2.0).to_radians().tan()
+    /// Angles of the flanks, degrees: towards the end of the thread, and away from it.
+    pub fn flanks(&self) -> [f64; 2] {
+        [self.end_flank, self.angle - self.end_flank]
     }
 
-    /// Tangent of half the angle between the tool's edges.
-    pub fn edge(&self) -> f64 {
-        (self.tool_angle / 2.0).to_radians().tan()
+    /// Tangents of the angles of the tool's edges, in the same order.
+    pub fn edges(&self) -> [f64; 2] {
+        [self.end_edge, self.tool_angle - self.end_edge].map(|angle| angle.to_radians().tan())
     }
 
-    /// Half the width of the groove at a depth.
-    pub fn half_width(&self, depth: f64) -> f64 {
-        self.root / 2.0 + (self.height() - depth) * self.flank()
+    /// How far the groove reaches at a depth, from the middle of its root to either side.
+    pub fn reach(&self, depth: f64) -> [f64; 2] {
+        let rise = self.height() - depth;
+        self.flanks().map(|angle| self.root / 2.0 + rise * angle.to_radians().tan())
+    }
+
+    /// The outer positions of the tool at a depth, from the middle of the root.
+    pub fn outer(&self, depth: f64) -> [f64; 2] {
+        let [end, away] = self.reach(depth);
+        [self.nose / 2.0 - end, away - self.nose / 2.0]
     }
 
     /// Depths of the floors of the layers; the first is 0, the crest.
@@ -85,7 +96,8 @@ impl Thread {
 
     /// Distance between the outer positions of the tool at a depth.
     pub fn span(&self, depth: f64) -> f64 {
-        2.0 * self.half_width(depth) - self.nose
+        let [first, last] = self.outer(depth);
+        last - first
     }
 
     /// CUT_OFFSET at a depth: the span in as few equal parts as the largest
@@ -113,12 +125,18 @@ impl Thread {
         let side = if self.internal { "IN" } else { "OUT" };
         let layers: Vec<String> = self.layers.iter().map(f64::to_string).collect();
         let layers = layers.join(",");
+        let Thread { end_flank, end_edge, .. } = self;
+        let sides = if (*end_flank, *end_edge) == (angle / 2.0, tool_angle / 2.0) {
+            String::new()
+        } else {
+            format!(", $\n FLANK, {end_flank}, EDGE, {end_edge}")
+        };
         format!(
             "PARTNO / 90\nUNITS / MM\nLOADTL / 3\nSPINDL / RPM, 200, CLW\n\
              THREAD / AUTO, {crest}, 0, {start}, TO, {crest}, 0, {end}, MMPR, {pitch}, $\n \
              DEEP, {first}, LAST, {finish}, TYPE, 0, {height}, {angle}, IPM, 100, $\n \
              FEDTO, {clearance}, {side}, TIMES, {starts}, OFSETL, 0, {shift}, $\n \
-             LAYER, {layers}, WIDTH, {root}, CUTTER, {nose}, {tool_angle}, TOLER, {tolerance}\n\
+             LAYER, {layers}, WIDTH, {root}, CUTTER, {nose}, {tool_angle}, TOLER, {tolerance}{sides}\n\
              FINI\n"
         )
     }

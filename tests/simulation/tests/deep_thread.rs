@@ -76,8 +76,10 @@ fn worm() -> Thread {
         layers: vec![2.0, 2.0, 2.0],
         root: 3.0,
         angle: 40.0,
+        end_flank: 20.0,
         nose: 2.4,
         tool_angle: 40.0,
+        end_edge: 20.0,
         shift: 1.2,
         clearance: 2.0,
         finish: 0,
@@ -98,13 +100,27 @@ fn two_starts() -> Thread {
         layers: vec![1.0, 1.0],
         root: 1.6,
         angle: 30.0,
+        end_flank: 15.0,
         nose: 1.2,
         tool_angle: 29.0,
+        end_edge: 14.5,
         shift: 0.6,
         clearance: 1.5,
         finish: 2,
         internal: true,
         tolerance: 0.01,
+    }
+}
+
+/// The thread of the case deep-thread-buttress.
+fn buttress() -> Thread {
+    Thread {
+        angle: 33.0,
+        end_flank: 3.0,
+        tool_angle: 33.0,
+        end_edge: 3.0,
+        tolerance: 0.001,
+        ..worm()
     }
 }
 
@@ -116,7 +132,11 @@ fn case(name: &str, file: &str) -> String {
 
 #[test]
 fn the_cases_cut_their_profiles() {
-    for (name, thread) in [("worm", worm()), ("two-starts", Thread { finish: 0, ..two_starts() })] {
+    for (name, thread) in [
+        ("worm", worm()),
+        ("two-starts", Thread { finish: 0, ..two_starts() }),
+        ("buttress", buttress()),
+    ] {
         let nc = case(&format!("deep-thread-{name}"), "expected.nc");
         let cut = judge(&thread, &nc).unwrap_or_else(|error| panic!("{name}: {error}"));
         println!("{name}: {cut:?}");
@@ -233,7 +253,7 @@ fn changed_words(nc: &str) -> Vec<(String, String)> {
 
 #[test]
 fn a_changed_word_is_found() {
-    for thread in [worm(), two_starts()] {
+    for thread in [worm(), two_starts(), buttress()] {
         let nc = written(&thread);
         judge(&thread, &nc).expect("the program is right");
         let mutants = changed_words(&nc);
@@ -281,13 +301,16 @@ fn a_changed_script_is_found() {
         ("SIGNF(1,ZSTART-ZFAR)", "SIGNF(1,ZFAR-ZSTART)"),
         ("XWIDE*(XCREST+OUTWRD*CLRCE)", "XWIDE*(XCREST-OUTWRD*CLRCE)"),
         ("XWIDE*(XCREST-OUTWRD*HDONE)", "XWIDE*(XCREST+OUTWRD*HDONE)"),
-        ("(HEIGHT-HDONE)*TANF(ANGLE/2) - NOSE", "(HEIGHT-HDONE)*TANF(ANGLE) - NOSE"),
-        ("(HEIGHT-HDONE)*TANF(ANGLE/2) - NOSE", "HEIGHT*TANF(ANGLE/2) - NOSE"),
-        ("TANF(ANGLE/2) - NOSE", "TANF(ANGLE/2) - NOSE/2"),
+        ("(HEIGHT-HDONE)*FLTWO - NOSE", "(HEIGHT-HDONE)*2*FLTWO - NOSE"),
+        ("(HEIGHT-HDONE)*FLTWO - NOSE", "HEIGHT*FLTWO - NOSE"),
+        ("FLTWO - NOSE", "FLTWO - NOSE/2"),
+        ("FLMID = (HEIGHT-HDONE)*(FLTAN2-FLTAN1)/2", "FLMID = 0"),
+        ("FLMID = (HEIGHT-HDONE)*(FLTAN2-FLTAN1)/2", "FLMID = HEIGHT*(FLTAN2-FLTAN1)/2"),
+        ("FLTAN2 = TANF(ANGLE-FLEND)", "FLTAN2 = FLTAN1"),
         ("INTF(SPAN/MOST+0.999999)", "INTF(SPAN/MOST)+2"),
         ("CUTOFF = SPAN/NCUT", "CUTOFF = MOST"),
-        ("(ISTART-1)*PTCH-SPAN/2)\n  POSTN", "(ISTART-1)*PTCH-SPAN)\n  POSTN"),
-        ("(ISTART-1)*PTCH-SPAN/2)\n  POSTN", "ISTART*CUTOFF-SPAN/2)\n  POSTN"),
+        ("(ISTART-1)*PTCH-SPAN/2+FLMID)\n  POSTN", "(ISTART-1)*PTCH-SPAN+FLMID)\n  POSTN"),
+        ("(ISTART-1)*PTCH-SPAN/2+FLMID)\n  POSTN", "ISTART*CUTOFF-SPAN/2)\n  POSTN"),
         ("K,KLAY(ILAY),D,D1", "K,HDONE,D,D1"),
         ("K,KLAY(ILAY),D,D1", "K,KLAY(ILAY),D,2*D1"),
         ("DO/WIDENL,ICUT=0,NCUT", "DO/WIDENL,ICUT=0,NCUT-1"),
@@ -296,7 +319,7 @@ fn a_changed_script_is_found() {
     ] {
         let changed = script.replacen(old, new, 1);
         assert_ne!(changed, script, "{old} is not there");
-        let found = [worm(), two_starts()].iter().any(|thread| {
+        let found = [worm(), two_starts(), buttress()].iter().any(|thread| {
             let post = Program::builder().generic("fanuc-lathe").set(ONE_BLOCK[0]);
             let post = with_script(post, SCRIPT, &changed).build();
             let post = post.as_ref().expect("the script is sound");

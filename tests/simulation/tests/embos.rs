@@ -48,13 +48,17 @@ fn script() -> String {
     text("fil-scripts/papers/embos-grid.fil")
 }
 
-/// The points of a CL file at a radius.
-fn at_radius(cl: &str, radius: f64) -> Vec<Point3<f64>> {
-    let points = cl.lines().filter_map(|line| line.strip_prefix("GOTO / ")).map(|numbers| {
+/// The points of a CL file.
+fn points(cl: &str) -> impl Iterator<Item = Point3<f64>> {
+    cl.lines().filter_map(|line| line.strip_prefix("GOTO / ")).map(|numbers| {
         let numbers: Vec<f64> = numbers.split(", ").map(|n| n.parse().expect("a number")).collect();
         Point3::new(numbers[0], numbers[1], numbers[2])
-    });
-    points.filter(|point| (point.x.hypot(point.z) - radius).abs() < COARSEST).collect()
+    })
+}
+
+/// The points of a CL file at a radius.
+fn at_radius(cl: &str, radius: f64) -> Vec<Point3<f64>> {
+    points(cl).filter(|point| (point.x.hypot(point.z) - radius).abs() < COARSEST).collect()
 }
 
 /// Each cut starts and ends at its points of the CL file, and its groove lies in the disc.
@@ -189,6 +193,76 @@ fn random_grids_lie_in_the_plane_of_the_disc() {
         }
     }
     println!("grids of grooves: {grids} posted, each cut lies in the plane of the disc");
+}
+
+/// Grooves on a random cone, every tool axis square to its axis, and its least radius.
+fn cone(random: &mut Random, side: f64) -> (String, f64) {
+    let between =
+        |random: &mut Random, from: f64, to: f64| from + (random.unit() + 1.0) / 2.0 * (to - from);
+    let slope = between(random, -15.0, 15.0).to_radians().tan();
+    let middle = between(random, 60.0, 120.0);
+    let radius = |along: f64| middle + slope * along;
+    let lean = between(random, 20.0, 70.0).round();
+    let (sine, cosine) = lean.to_radians().sin_cos();
+    let group = if side > 0.0 { "EMBOSL" } else { "EMBOSR" };
+    let mut cl = format!(
+        "PARTNO / 7\nUNITS / MM\nMULTAX / ON\nFEDRAT / 30, MMPM\nCYCLE / {group}, ATANGL, {lean}\n"
+    );
+    let mut least = f64::INFINITY;
+    for _ in 0..3 {
+        let (mut angle, mut along) = (between(random, -170.0, 170.0), between(random, -40.0, 20.0));
+        let mut point = |before: &str, out: f64, angle: f64, along: f64| {
+            let at = radius(along) + out;
+            least = least.min(radius(along));
+            let (sine, cosine) = angle.to_radians().sin_cos();
+            cl += &format!(
+                "{before}GOTO / {:.10}, {along:.10}, {:.10}, {sine:.10}, 0.0, {cosine:.10}\n",
+                at * sine,
+                at * cosine
+            );
+        };
+        point("RAPID\n", 40.0, angle, along);
+        point("RAPID\n", 15.0, angle, along);
+        point("", 0.0, angle, along);
+        for _ in 0..5 {
+            // Small steps: on a cone a groove at one angle is no straight way of Y and C.
+            for _ in 0..100 {
+                let step = 0.02;
+                angle += (step * sine / radius(along + side * step * cosine / 2.0)).to_degrees();
+                along += side * step * cosine;
+            }
+            point("", 0.0, angle, along);
+        }
+        point("", 40.0, angle, along);
+    }
+    (cl + "CYCLE / OFF\nFINI\n", least)
+}
+
+#[test]
+fn grooves_on_random_cones_lie_in_the_plane_of_the_disc() {
+    let mut random = Random(filpost_simulation::seed(9));
+    let cones = filpost_simulation::jobs("FILPOST_EMBOS_GRIDS", 60);
+    for index in 0..cones {
+        let side = if index % 2 == 0 { 1.0 } else { -1.0 };
+        let (cl, least) = cone(&mut random, side);
+        let lean = cl.split("ATANGL, ").nth(1).and_then(|rest| rest.lines().next());
+        let lean: f64 = lean.expect("an angle").parse().expect("a number");
+        let nc = post(&script(), &cl).unwrap_or_else(|error| panic!("{index}: {error}\n{cl}"));
+        let found = cuts(&nc, least + 1.0, lean).unwrap_or_else(|it| panic!("{index}: {it}\n{nc}"));
+        assert_eq!(found.len(), 15, "{index}: {nc}");
+        let points: Vec<Point3<f64>> = points(&cl).collect();
+        for cut in &found {
+            for spot in [cut.at(0.0), cut.at(1.0)] {
+                let near = points.iter().any(|point| (point - spot.in_part()).norm() < NEAR);
+                assert!(near, "{index}, line {}: {spot:?}\n{cl}{nc}", cut.line);
+            }
+            for part in [0.1, 0.5, 0.9] {
+                let out = cut.out_of_disc(part);
+                assert!(out < 0.5, "{index}, line {}: out of the disc by {out}", cut.line);
+            }
+        }
+    }
+    println!("grooves on cones: {cones} posted, each cut lies in the plane of the disc");
 }
 
 /// A head whose travel allows it turned over is refused: it would reach the same tool axis with its

@@ -144,6 +144,8 @@ fn a_real_program_is_read() {
 /// said of them.
 const NOT_FOLLOWED: &[(&str, &str)] = &[
     ("feed-control-l400", "E0905 out.nc:2:5: R: an address with an index"),
+    ("run-out-measure", "E0902 out.nc:9:5: `PO`"),
+    ("run-out-search", "E0902 out.nc:9:5: `PO`"),
     ("one-surface", "E0904 out.nc:7:5: the machine has no G65"),
     ("klartext/texts", "E0904 out.nc:12:1: `CALL` is not followed"),
     ("side", "E0904 out.nc:8:5: the machine has no G68.2"),

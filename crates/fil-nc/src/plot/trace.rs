@@ -2,6 +2,9 @@
 
 use fil_cl::Reader;
 use fil_diag::Diag;
+use fil_machine::Commons;
+use fil_machine::input_matrix::input_matrix;
+use fil_machine::locations as loc;
 use nalgebra::{Point3, Rotation3, Unit};
 
 use super::sample::{arc_step, shares_of};
@@ -133,7 +136,7 @@ pub(super) fn tolerance(extent: Option<Extent>) -> f64 {
 }
 
 /// The trace of a CL file; `name` is for messages, `unit` that of a file which does not
-/// say it itself, `shift` the machine's translation of the input.
+/// say it itself; with the settings of a machine its points are moved as the machine moves them.
 ///
 /// # Errors
 /// What the CL reader refuses; a file whose unit nobody says.
@@ -141,10 +144,12 @@ pub fn cl_trace(
     cl: Reader<'_>,
     name: &str,
     unit: Option<fil_machine::Unit>,
-    shift: [f64; 3],
+    commons: Option<&Commons>,
 ) -> Result<Trace, Box<Diag>> {
     let mut steps = Vec::new();
-    for step in ClPath::new(cl, name, shift).in_unit(unit) {
+    let shift = loc::INPUT_TRANSLATE.map(|at| commons.and_then(|it| it.dbl_opt(at)).unwrap_or(0.0));
+    let path = ClPath::new(cl, name, shift).through(commons.and_then(input_matrix));
+    for step in path.in_unit(unit) {
         steps.push(step?);
     }
     let ends: Vec<Point> = steps

@@ -130,6 +130,7 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
         .with_rapto_as_level(rapto_is_level)
         .with_rigid_taps(check.commons.read(loc::CYCLE_TAP_RIGID));
     let path = path.on_machine(settings.shift_along(), settings.matrix_leaves_axis());
+    let path = path.through(settings.input_matrix());
     let path = path.with_frame_words(settings.frame_words());
     let path = path.clear_of_threads_by(settings.thread_clearance());
     let path =

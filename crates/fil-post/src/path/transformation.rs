@@ -19,6 +19,8 @@ pub struct Transformation {
 /// What moves the points by a matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Statement {
+    /// The settings of the machine.
+    Machine,
     /// TRANS.
     Trans,
     /// TRACUT.

@@ -31,7 +31,9 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     post.require(Act::OtherPoints)?;
     let by_matrix = post.path.transformation.as_ref().map(|it| it.of);
     if post.path.shift == Shift::Origin || by_matrix.is_some_and(|of| of != Statement::Trans) {
-        return Err(items.error("ORIGIN, TRACUT, ROTABL or a named frame moves the points already"));
+        return Err(items.error(
+            "ORIGIN, TRACUT, ROTABL, a named frame or input.matrix moves the points already",
+        ));
     }
     if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
         items.deny_rest()?;
@@ -85,6 +87,34 @@ fn turn(post: &mut Post, trans: Option<Transformation>) -> Result<()> {
     Ok(())
 }
 
+/// Follows the matrix of the machine's settings, which a script may change.
+///
+/// # Errors
+/// Something else moves the points by a matrix; a place between a CIRCLE and its end.
+#[cold]
+pub fn follow_machine(post: &mut Post) -> Result<()> {
+    if post.path.transformation.is_some() && !post.path.is_moved_by(Statement::Machine) {
+        return PostCode::WordForm
+            .err("input.matrix: TRANS, TRACUT, ROTABL or a named frame moves the points already");
+    }
+    post.require(Act::OtherPoints)?;
+    let turns_axis = post.control.commons.read(loc::INPUT_KIND) != InputKind::MatrixOnPoints;
+    let of_machine = |matrix: &Matrix3x4<f64>| Transformation {
+        matrix: *matrix,
+        turns_axis,
+        of: Statement::Machine,
+    };
+    let matrix = post.control.tables.input_matrix().map(of_machine);
+    turn(post, matrix)
+}
+
+/// True where the machine's matrix is another one than that which moves the points.
+#[inline]
+pub fn machine_has_changed(post: &Post) -> bool {
+    let moved = post.path.transformation.as_ref().filter(|it| it.of == Statement::Machine);
+    moved.map(|it| &it.matrix) != post.control.tables.input_matrix()
+}
+
 /// ORIGIN/x,y,z: the zero of the machine in the part or that of the part on the machine, as
 /// the machine says; false where it does not. ORIGIN/NOMORE ends it. It is the translation of
 /// `TRANS/x,y,z` under another name, so the two do not go together.
@@ -99,8 +129,8 @@ pub fn origin(post: &mut Post, items: &mut Items) -> Result<bool> {
         InputOrigin::ZeroOfThePartOnTheMachine => 1.0,
     };
     post.require(Act::OtherPoints)?;
-    if post.path.is_moved_by(Statement::Table) {
-        return Err(items.error("ROTABL moves the points already"));
+    if [Statement::Table, Statement::Machine].into_iter().any(|it| post.path.is_moved_by(it)) {
+        return Err(items.error("ROTABL or input.matrix moves the points already"));
     }
     let stands = loc::INPUT_TRANSLATE
         .iter()

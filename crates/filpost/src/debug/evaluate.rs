@@ -223,7 +223,7 @@ fn common(state: &DebugState<'_, '_>, kind: f64, location: f64) -> Result<Held> 
     let whole = location as u32;
     match fil_vm::CommonKind::from_type(kind) {
         Some(kind) if f64::from(whole) == location => {
-            state.commons().get(common_kind(kind), whole).map(Held::Number)
+            fil_machine::in_force_at(state.commons(), common_kind(kind), whole).map(Held::Number)
         }
         _ => refuse("there is no such location"),
     }

@@ -19,7 +19,7 @@ use crate::debug::{self, DebugState, World};
 
 impl Host for Outside<'_, '_> {
     fn common(&mut self, kind: CommonKind, location: u32) -> Result<f64, Box<Diag>> {
-        self.post.control.commons.get(common_kind(kind), location)
+        fil_machine::in_force_at(&self.post.control.commons, common_kind(kind), location)
     }
 
     fn set_common(

@@ -18,7 +18,7 @@ const TOOL: Pen = Pen::dashed("#202020", 1.5);
 pub fn section(thread: &Thread, program: &Program) -> Picture {
     let mut picture = Picture::default();
     let (height, edge) = (thread.height(), thread.pitch / 2.0);
-    let (crest, root) = (thread.half_width(0.0), thread.half_width(height));
+    let [crest, root] = [0.0, height].map(|depth| thread.reach(depth)[0]);
     let groove = [[-crest, 0.0], [-root, -height], [root, -height], [crest, 0.0]];
     let mut stock = vec![[-edge, 0.0]];
     stock.extend(groove);
@@ -74,7 +74,7 @@ fn passes(picture: &mut Picture, thread: &Thread, program: &Program) {
 /// The tool above the groove, where it stands for the first layer.
 fn tool(picture: &mut Picture, thread: &Thread) {
     let clear = 0.1 * thread.height();
-    let place = -thread.span(thread.layers[0]) / 2.0;
+    let [place, _] = thread.outer(thread.layers[0]);
     let [left, right] = flanks(thread, place, 0.0, -0.3 * thread.height())
         .map(|side| side.map(|[x, y]| [x, y + clear]));
     picture.line(&[left[0], left[1], right[1], right[0]], TOOL);
@@ -84,6 +84,6 @@ fn tool(picture: &mut Picture, thread: &Thread) {
 /// The two edges of the tool from a depth above its nose down to the nose.
 fn flanks(thread: &Thread, place: f64, depth: f64, top: f64) -> [[[f64; 2]; 2]; 2] {
     let nose = thread.nose / 2.0;
-    let wide = nose + (depth - top) * thread.edge();
+    let wide = nose + (depth - top) * thread.edges()[0];
     [-1.0, 1.0].map(|side| [[place + side * wide, -top], [place + side * nose, -depth]])
 }

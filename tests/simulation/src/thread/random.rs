@@ -16,6 +16,8 @@ prop_compose! {
         wider in prop_oneof![Just(0.0), 0.0..3.0_f64],
         shift in 0.2..1.0_f64,
         angle in prop::sample::select(vec![0.0, 7.0, 29.0, 30.0, 40.0, 55.0, 60.0]),
+        // Where the flank towards the end lies: half of the angle, or another share.
+        share in prop_oneof![2 => Just(0.5), 1 => 0.0..1.0_f64],
         slimmer in prop_oneof![3 => Just(0.0), 1 => 0.0..5.0_f64],
         layers in prop::collection::vec(0.2..3.0_f64, 1..5),
         first in 0.35..0.9_f64,
@@ -28,6 +30,15 @@ prop_compose! {
         let layers: Vec<f64> = layers.into_iter().map(thousandths).collect();
         let tool_angle = thousandths((angle - slimmer).max(0.0));
         let nose = thousandths(nose);
+        let share = if angle == 0.0 { 0.5 } else { share };
+        let (end_flank, end_edge) = if share == 0.5 {
+            (angle / 2.0, tool_angle / 2.0)
+        } else {
+            let flank = thousandths(angle * share);
+            // Each edge is slimmer by its share.
+            let edge = flank - (angle - tool_angle) * flank / angle;
+            (flank, thousandths(edge.clamp(0.0, tool_angle)))
+        };
         let mut thread = Thread {
             crest: thousandths(layers.iter().sum::<f64>() + 8.5),
             start: 6.123,
@@ -37,8 +48,10 @@ prop_compose! {
             first: thousandths(first),
             root: thousandths(nose + wider),
             angle,
+            end_flank,
             nose,
             tool_angle,
+            end_edge,
             shift: thousandths(nose * shift),
             clearance: 1.5,
             finish,
@@ -46,12 +59,15 @@ prop_compose! {
             tolerance: 0.0,
             layers,
         };
-        thread.pitch = thousandths(2.0 * thread.half_width(0.0) + crest_width) + 0.001;
+        thread.pitch = thousandths(thread.reach(0.0).iter().sum::<f64>() + crest_width) + 0.001;
         // No layer has more than 99 shifts.
         let least = thousandths(thread.span(thread.layers[0]) / 90.0) + 0.001;
         thread.shift = thread.shift.max(least).min(nose);
         let highest = thread.layers.iter().copied().fold(0.0, f64::max);
-        let stair = highest * (thread.flank() - thread.edge());
+        let slimmer = (0..2).map(|side| {
+            thread.flanks()[side].to_radians().tan() - thread.edges()[side]
+        });
+        let stair = highest * slimmer.fold(0.0, f64::max);
         thread.tolerance = thousandths(stair) + 0.001;
         thread
     }

@@ -139,9 +139,9 @@ impl Groove {
         found.chip = found.chip.max(stroke.chip);
         stroke.widens(thread)?;
         if layer == thread.layers.len() {
-            let outer = thread.span(stroke.floor) / 2.0;
-            self.outer[0] += u32::from((place + outer).abs() < FINE);
-            self.outer[1] += u32::from((place - outer).abs() < FINE);
+            for (passes, outer) in self.outer.iter_mut().zip(thread.outer(stroke.floor)) {
+                *passes += u32::from((place - outer).abs() < FINE);
+            }
         }
         Ok(())
     }
@@ -162,9 +162,9 @@ impl Groove {
         let mut widest: f64 = 0.0;
         let nose = thread.nose / 2.0;
         for level in self.levels.iter_mut().filter(|level| level.depth <= depth) {
-            let half = nose + (depth - level.depth) * thread.edge();
+            let wide = thread.edges().map(|edge| nose + (depth - level.depth) * edge);
             let under = length(&level.left([place - nose, place + nose]));
-            let chip = level.take([place - half, place + half]);
+            let chip = level.take([place - wide[0], place + wide[1]]);
             let due = if under > BETWEEN { roughed } else { top };
             if chip > BETWEEN && level.depth < due - BETWEEN {
                 return Err(format!("deeper than its law: it meets stock {:.4} deep", level.depth));
@@ -176,14 +176,15 @@ impl Groove {
 
     /// Looks at what is left.
     fn finished(&self, thread: &Thread, found: &mut Cut) -> Result<(), String> {
-        let square = (thread.angle / 2.0).to_radians().cos();
+        let square = thread.flanks().map(|angle| angle.to_radians().cos());
         for level in &self.levels {
-            let half = thread.half_width(level.depth);
-            for [from, to] in level.left([-half, half]) {
-                let on_flank = from <= -half || to >= half;
+            let [end, away] = thread.reach(level.depth);
+            for [from, to] in level.left([-end, away]) {
+                let on_flank = from <= -end || to >= away;
                 if !on_flank && to - from > BETWEEN {
                     return Err(format!("a ridge of {:.4} at depth {:.4}", to - from, level.depth));
                 }
+                let square = if from <= -end { square[0] } else { square[1] };
                 found.stock = found.stock.max((to - from) * square);
             }
         }
@@ -228,7 +229,7 @@ impl Stroke {
         if added > 2.0 * BETWEEN && self.chip < thread.nose - BETWEEN {
             return Err(format!("pass {number} of G76 cuts air"));
         }
-        let outer = -thread.span(self.floor) / 2.0;
+        let [outer, _] = thread.outer(self.floor);
         if (self.place - outer).abs() > FINE {
             return Err(format!("G76 at {:.4} for {outer:.4}", self.place));
         }
@@ -241,7 +242,7 @@ impl Stroke {
         if self.chip > law + BETWEEN {
             return Err(format!("a chip of {:.4} for a CUT_OFFSET of {law:.4}", self.chip));
         }
-        let shifts = (self.place + thread.span(self.floor) / 2.0) / law;
+        let shifts = (self.place - thread.outer(self.floor)[0]) / law;
         if law > FINE && (shifts - shifts.round()).abs() * law > FINE {
             return Err(format!("G92 at {:.4} is {shifts:.3} shifts from G76", self.place));
         }
@@ -297,11 +298,15 @@ fn law(thread: &Thread, layer: f64, number: u32) -> f64 {
 /// How far the tool leaves the groove. Both are convex, so its corners and its
 /// edges at the crest tell.
 fn gouge(thread: &Thread, place: f64, depth: f64) -> f64 {
-    let square = (thread.angle / 2.0).to_radians().cos();
     let nose = thread.nose / 2.0;
-    let beside = |half: f64, at: f64| (place.abs() + half - thread.half_width(at)) * square;
-    let at_crest = beside(nose + depth * thread.edge(), 0.0);
-    beside(nose, depth).max(at_crest).max(depth - thread.height())
+    let mut gouge = depth - thread.height();
+    for (side, aside) in [-place, place].into_iter().enumerate() {
+        let square = thread.flanks()[side].to_radians().cos();
+        let beside = |half: f64, at: f64| (aside + half - thread.reach(at)[side]) * square;
+        let at_crest = beside(nose + depth * thread.edges()[side], 0.0);
+        gouge = gouge.max(beside(nose, depth)).max(at_crest);
+    }
+    gouge
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 //! left at a displaced and tilted cylinder after one program has gone round it.
 
 mod left;
+mod measured;
 mod tilt;
 
 use std::fs;
@@ -286,7 +287,7 @@ fn mutations_of_the_script_are_found() {
         ("ROTIR/2*COSF(ROC(ROI))", "ROTIR*COSF(ROC(ROI))"),
         ("ROTIR/2*COSF(ROC(ROI))", "ROTIR/2*SINF(ROC(ROI))"),
         ("ROTIR/2*SINF(ROC(ROI))", "-ROTIR/2*SINF(ROC(ROI))"),
-        ("COUPLF(CMAX) - ROMISS/2", "COUPLF(CMIN) - ROMISS/2"),
+        ("ROCTOP - ROMISS/2", "ROCLOW - ROMISS/2"),
         ("+ ROQ*SINF(ROBY)", "- ROQ*SINF(ROBY)"),
         ("- ROP*SINF(ROBY)", "+ ROP*SINF(ROBY)"),
         ("ROFROM=3,ROTO=1", "ROFROM=1,ROTO=3"),
@@ -382,7 +383,7 @@ fn bad_inputs_are_refused_in_words() {
         ("misspelt", "RUNOUT: item 3 is no part of this record"),
         ("couplet-twice", "RUNOUT: CMIN,c is there twice"),
         ("too-steep", "tilt 4.16 degrees is more than 1"),
-        ("unknown-form", "RUNOUT needs PROBE, TOLER, DIAMTR, ON, POINTS or OFF"),
+        ("unknown-form", "RUNOUT needs PROBE, MEASUR, READ, TOLER, DIAMTR, ON"),
         ("tolerance", "RUNOUT/TOLER is above 0 and at most 0.1 mm"),
         ("other-table", "the machine has no table about Z through X0 Y0"),
         ("inches", "RUNOUT counts in mm, this CL file in inches"),
@@ -392,6 +393,14 @@ fn bad_inputs_are_refused_in_words() {
         ("trans-while-on", "RUNOUT is on: TRANS would move half of it"),
         ("scale-c", "the machine scales or translates C"),
         ("translate-c", "the machine scales or translates C"),
+        ("measure-too-near", "the probe stands at X 54: bring it to X 55 or further out first"),
+        ("measure-no-position", "no position before RUNOUT/MEASUR"),
+        ("measure-tip-control", "RUNOUT/MEASUR is written for X of the machine"),
+        ("measure-little-clearance", "CLEAR is at most the run-out that may come, 1"),
+        ("measure-inside", "OVER leads past the table axis"),
+        ("readings-missing", "RUNOUT/READ: there is no run-out.txt"),
+        ("readings-of-one", "run-out.txt does not hold both sections"),
+        ("readings-no-number", "run-out.txt: no number after"),
     ];
     let folder = root().join("corpus/papers/run-out-refused");
     let count = fs::read_dir(&folder).expect("the cases are there").count();

@@ -60,6 +60,8 @@ pub(super) struct Frame {
     pub(super) along: Vector3<f64>,
     /// A matrix without OPTION leaves the tool axis alone.
     pub(super) leaves_axis: bool,
+    /// The matrix is that of the machine, which no word takes away.
+    pub(super) of_machine: bool,
     pub(super) words: FrameWords,
     pub(super) named: NamedFrames,
 }
@@ -75,6 +77,10 @@ impl Frame {
 
 impl State {
     pub(super) fn trans(&mut self, record: &Record) -> Vec<ExpectedStep> {
+        if self.frame.of_machine {
+            let what = "TRANS beside input.matrix".to_string();
+            return vec![ExpectedStep::Unknown { what, effect: Effect::Path }];
+        }
         if record.has(w::NOMORE) || record.has(w::OFF) {
             self.frame.matrix = None;
             self.frame.shift = Vector3::zeros();
@@ -117,7 +123,7 @@ impl State {
 
     /// TRACUT as the machine reads it; `None` where it does not.
     pub(super) fn tracut(&mut self, record: &Record) -> Option<Vec<ExpectedStep>> {
-        if self.frame.words.tracut == InputTracut::Refused {
+        if self.frame.of_machine || self.frame.words.tracut == InputTracut::Refused {
             return None;
         }
         if record.has(w::NOMORE) || record.has(w::OFF) {

@@ -22,12 +22,12 @@ use fil_cl::{Circle, Reader, Record, Vocabulary, words as w};
 use fil_diag::Diag;
 use fil_machine::Unit;
 use fil_machine::cycle_kind::CycleKind;
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3x4, Point3, Vector3};
 
 use super::expected_step::{End, ExpectedStep, Step};
 use super::statements::{numbers, numbers_beside, whole};
-use frame_words::Frame;
 pub use frame_words::FrameWords;
+use frame_words::{Frame, Matrix};
 use thread::Threads;
 pub use words::{ignored_words, knows_word};
 
@@ -192,6 +192,15 @@ impl<'r> ClPath<'r> {
     pub fn on_machine(mut self, along: [f64; 3], leaves_axis: bool) -> Self {
         self.state.frame.along = Vector3::from(along);
         self.state.frame.leaves_axis = leaves_axis;
+        self
+    }
+
+    /// The same path, through the matrix of the machine.
+    #[must_use]
+    pub fn through(mut self, matrix: Option<Matrix3x4<f64>>) -> Self {
+        let turns_axis = !self.state.frame.leaves_axis;
+        self.state.frame.of_machine = matrix.is_some();
+        self.state.frame.matrix = matrix.map(|rows| Matrix { rows, turns_axis, by_author: false });
         self
     }
 

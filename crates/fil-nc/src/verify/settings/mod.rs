@@ -9,12 +9,14 @@ mod tools;
 use fil_diag::Diag;
 use fil_machine::address::Addresses;
 use fil_machine::commons::{Commons, Dbl, Int};
+use fil_machine::input_matrix::input_matrix;
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
     self as loc, CircleCenter, ControlFamily, Exceeded, InputKind, Placement, RapidSplit,
     RotaryClwAlongNormal, RotaryDefaultClw, RotaryFacesPositive,
 };
 use fil_machine::user_blocks::{self, AroundChange};
+use nalgebra::Matrix3x4;
 
 use crate::dialect::{Dialect, Habit};
 use crate::forward::Forward;
@@ -194,6 +196,11 @@ impl<'c> Settings<'c> {
     /// Translation of the input, CL units.
     pub fn input_shift(&self) -> [f64; 3] {
         loc::INPUT_TRANSLATE.map(|at| self.commons.dbl_opt(at).unwrap_or(0.0))
+    }
+
+    /// The matrix that the machine sends each point through.
+    pub fn input_matrix(&self) -> Option<Matrix3x4<f64>> {
+        input_matrix(self.commons)
     }
 
     /// Shift of the input along the tool axis of a machine that turns nothing, CL units.
