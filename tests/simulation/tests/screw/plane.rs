@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use filpost_simulation::screw::section::Section;
 use filpost_simulation::screw::{Job, helix, passes, random};
-use filpost_tests::root;
 
 use super::{post, sections};
 
@@ -122,8 +121,4 @@ fn random_jobs_undercut_nothing_or_are_refused() {
     let [made, refused] = ["made", "refused"].map(|end| ends.get(end).copied().unwrap_or(0));
     let row = format!("| {} | {made} | {refused} |\n", jobs.len());
     println!("{row}");
-    if count == 50 && !filpost_simulation::is_seeded() {
-        let page = std::fs::read_to_string(root().join("docs/papers/screw.md")).expect("the page");
-        assert!(page.contains(&row), "{row}");
-    }
 }
