@@ -157,7 +157,7 @@ fn along_the_axis(picture: &mut Picture, radius: f64) {
         picture.text([center, DISC + 4.0], name);
         picture.text([center, -DISC - 10.0], if side > 0.0 { "+X" } else { "-X" });
     }
-    picture.text([0.0, -18.0], "C");
+    picture.text([0.0, 0.0], "C");
     picture.text([0.0, 118.0], "along the axis of the cylinder");
 }
 
@@ -182,7 +182,7 @@ fn from_x(picture: &mut Picture, middle: [f64; 2], radius: f64, cuts: &[Cut]) {
         picture.line(&ends.map(|at| place(at.y, at.z)), FIRST);
     }
     picture.line(&[place(y - DISC, z), place(y + DISC, z)], Pen::full("black", 2.5));
-    picture.text(place(y - DISC - 16.0, z - 3.5), "disc");
+    picture.text(place(y, z + 3.0), "disc");
     picture.text(place(0.0, 118.0), "from +X: Y right, Z up");
 }
 

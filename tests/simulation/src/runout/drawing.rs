@@ -40,8 +40,7 @@ fn from_above(picture: &mut Picture, middle: [f64; 2], number: usize, section: &
     for (radius, c, name) in [(RADIUS - eccentric, cmin, "MIN"), (RADIUS + eccentric, cmax, "MAX")]
     {
         picture.circle(at(radius, c), 2.0, PROBE);
-        // Outside of the dashed circle too.
-        let [x, y] = at(radius.max(RADIUS) + 14.0, c);
+        let [x, y] = at(radius + 12.0, c);
         picture.text([x, y - 2.0], name);
     }
     let label = |picture: &mut Picture, line: f64, text: String| {
