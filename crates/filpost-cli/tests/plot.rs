@@ -121,7 +121,7 @@ fn a_program_is_drawn_as_far_as_its_machine_has_its_words() {
     assert!(said.contains(unknown), "{said}");
     assert!(said.contains("out.nc:9: not drawn: the machine has no G187"), "{said}");
     // What follows the block is not joined to what came before it.
-    assert!(said.contains("out.nc:10: not drawn: no G word"), "{said}");
+    assert!(said.contains("out.nc:10: not drawn: no G code"), "{said}");
     assert!(said.contains("out.nc: 3 motions drawn"), "{said}");
     let page = place.read("path.html").expect("the page");
     assert!(page.contains("\"line 9: not drawn: the machine has no G187\""), "the gaps");

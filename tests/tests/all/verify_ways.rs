@@ -124,8 +124,8 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
             "the spindle has 77 turns/min, none is asked for",
         ),
         // A plane that nobody has asked for, whose normal the length of the tool acts along.
-        ("corpus/sinumerik/tools", "N60 Z50", "N60 G18 Z50", "G18 of line 7 is active"),
-        ("corpus/sinumerik/tools", "\nN70 G1", "\nN65 G19\nN70 G1", "G19 of line 8 is active"),
+        ("corpus/sinumerik/tools", "N60 Z50", "N60 G18 Z50", "G18 of line 7 is in force"),
+        ("corpus/sinumerik/tools", "\nN70 G1", "\nN65 G19\nN70 G1", "G19 of line 8 is in force"),
         ("corpus/sinumerik/planes", "N60 Z50", "N60 G19 Z50", "G19 of line 7 is active"),
         ("corpus/mills/fanuc-mill/tools", "G43", "G18 G43", "G18 of line"),
         ("words/cutcom-after-an-arc-in-another-plane", "G17\n", "", "G18 of line"),

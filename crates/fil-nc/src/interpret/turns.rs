@@ -121,7 +121,7 @@ mod tests {
             [350.0, 370.0, 350.0]
         );
         let half = angles(&["rotary.output=2"], "X0.A10. X1.A190.").unwrap_err();
-        assert!(half.contains("half a turn"), "{half}");
+        assert!(half.contains("equally short"), "{half}");
         // Alone, away from the part, either way leads there.
         assert_eq!(angles(&["rotary.output=2"], "A10. A190.").unwrap(), [10.0, 190.0]);
         assert_eq!(

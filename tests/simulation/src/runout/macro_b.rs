@@ -5,6 +5,9 @@ use std::collections::HashMap;
 
 use super::{Cylinder, Random};
 
+/// How two numbers of a condition compare.
+type Comparison = fn(&f64, &f64) -> bool;
+
 /// The control while a program runs.
 pub struct Control<'c> {
     cylinder: &'c Cylinder,
@@ -120,7 +123,7 @@ impl<'c> Control<'c> {
     fn holds(&self, condition: &str) -> bool {
         let inside = condition.strip_prefix('[').and_then(|it| it.strip_suffix(']'));
         let inside = inside.expect("a condition stands in brackets");
-        let rules: [(&str, fn(&f64, &f64) -> bool); 3] =
+        let rules: [(&str, Comparison); 3] =
             [(" LT ", f64::lt), (" LE ", f64::le), (" GE ", f64::ge)];
         for (name, holds) in rules {
             if let Some((left, right)) = inside.split_once(name) {

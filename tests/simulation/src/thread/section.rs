@@ -63,14 +63,18 @@ fn place(thread: &Thread, pass: &Pass) -> Result<(usize, f64), String> {
         return Err(format!("the pass ends at {}, the thread at {}", pass.end, thread.end));
     }
     let along = thread.away() * (pass.start - thread.start);
-    let offset = |groove: usize| {
-        let rest = along - groove as f64 * thread.pitch;
+    // Unequal flanks lead the middle of the groove away from that of its root.
+    let [end, away] = thread.outer(thread.inwards() * (thread.crest - pass.radius));
+    let middle = (end + away) / 2.0;
+    let beside = |groove: usize| {
+        let rest = along - middle - groove as f64 * thread.pitch;
         rest - thread.lead() * (rest / thread.lead()).round()
     };
     let nearest = (0..thread.starts as usize)
-        .map(|groove| (groove, offset(groove)))
+        .map(|groove| (groove, beside(groove)))
         .min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    nearest.ok_or_else(|| "a thread without starts".to_string())
+    let (groove, beside) = nearest.ok_or_else(|| "a thread without starts".to_string())?;
+    Ok((groove, middle + beside))
 }
 
 /// One groove of the thread.
