@@ -136,18 +136,24 @@ pub fn check_in_run(kind: Kind, number: u32, value: f64) -> Result<()> {
     check(kind, number, value)
 }
 
+/// The number in a text with more around it, `"-5"` or `M8`; `None` for a number alone, and for
+/// what holds more than one.
+fn number_within(text: &str) -> Option<f64> {
+    let is_part = |letter: char| letter.is_ascii_digit() || matches!(letter, '-' | '.');
+    let alone = text.trim_matches(|letter| !is_part(letter));
+    if alone == text { None } else { alone.parse().ok() }
+}
+
 /// E0605 for a value that a setting does not take.
 pub(crate) fn wrong_value(row: &Location, value: &str) -> Box<Diag> {
     let message = format!("`{}` can't be {value} (unit {})", row.name, row.unit);
     let diag = MachineCode::SettingValue.diag(message);
     if row.choices.is_empty() {
-        // "5" and "M8" are the numbers 5 and 8 with more around them.
-        let digits = value.trim_matches(|letter: char| !letter.is_ascii_digit());
-        return match digits.parse::<f64>() {
-            Ok(_) => {
-                Box::new(diag.hint(format!("write the number alone: {} = {digits}", row.name)))
-            }
-            Err(_) => diag,
+        let alone = number_within(value).filter(|number| takes(row, *number));
+        let hint = alone.map(|number| format!("write the number alone: {} = {number}", row.name));
+        return match hint {
+            Some(hint) => Box::new(diag.hint(hint)),
+            None => diag,
         };
     }
     Box::new(diag.hint(format!("choose one of {}", row.choices.replace('|', ", "))))
@@ -245,6 +251,20 @@ mod tests {
                 assert_eq!(diag.code.name(), "E0605");
                 false
             }
+        }
+    }
+
+    #[test]
+    fn a_number_in_a_text_keeps_its_sign_and_its_point() {
+        for (text, number) in [
+            ("\"-100.5\"", Some(-100.5)),
+            ("\".5\"", Some(0.5)),
+            ("M8", Some(8.0)),
+            ("-5", None),
+            ("\"1-2\"", None),
+            ("none", None),
+        ] {
+            assert_eq!(number_within(text), number, "{text}");
         }
     }
 
