@@ -68,7 +68,7 @@ pub struct MachineTables {
     pub turns_at_top: bool,
     /// Positions of a rotary axis count within one turn.
     pub within_a_turn: bool,
-    /// The post clamps the rotary axes: in tilted frames, or after rapid turns.
+    /// The post clamps the rotary axes: in tilted work planes, or after rapid turns.
     pub clamps: bool,
     /// The rotary axes are clamped after rapid turns.
     pub clamps_turns: bool,

@@ -131,8 +131,8 @@ impl Post {
         self.path.sense.choice == Choice::WouldSettle
     }
 
-    /// Motions are written under tool-tip control: those under MULTAX/ON, and on a machine that
-    /// writes no tilted frames all that the machine turns for.
+    /// Motions are output under TCPC: those under MULTAX/ON, and on a machine without tilted work
+    /// planes all that the machine turns for.
     #[inline]
     pub(crate) fn writes_tip(&self) -> bool {
         let tables = &self.control.tables;

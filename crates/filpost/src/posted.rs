@@ -13,7 +13,7 @@ use crate::engine::Engine;
 use crate::error::Error;
 use crate::map;
 use crate::memory::Memory;
-use crate::passes::Pass;
+use crate::passes::{FirstPass, Pass};
 use crate::pending::PendingFiles;
 use crate::program::Program;
 use crate::report::Report;
@@ -112,16 +112,25 @@ impl<'o> Run<'o> {
         let again = self.again();
         let first = self.first_pass(&mut Cursor::new(cl))?;
         let reader = Reader::seekable(Cursor::new(cl), &self.name(), self.options());
-        let records = Stream::Cl(Box::new(reader));
-        let pass = Pass::writing(first, self.program.has_script());
-        let (mut posted, pending, _) = self.post_whole(records, pass, None)?;
+        let (mut posted, pending, _) = self.post_text_read(reader, first, None)?;
         again.warn_of_undecided(cl, &mut posted.report)?;
         pending.commit()?;
         Ok(posted)
     }
 
+    /// As [`Run::post_whole`], for what a reader gives.
+    pub(crate) fn post_text_read(
+        self,
+        reader: Reader<'_>,
+        first: Option<FirstPass>,
+        map: Option<map::Writer<'o>>,
+    ) -> Result<(Posted, PendingFiles, Option<map::Writer<'o>>), Error> {
+        let pass = Pass::writing(first, self.program.has_script());
+        self.post_whole(Stream::Cl(Box::new(reader)), pass, map)
+    }
+
     /// The program, files of scripts that wait for their names, and the map to be ended.
-    pub(crate) fn post_whole(
+    fn post_whole(
         self,
         records: Stream<'_>,
         pass: Pass,

@@ -319,11 +319,31 @@ impl<'o> Run<'o> {
     #[doc(hidden)]
     pub fn run_mapped(
         self,
-        mut cl: impl Read + Seek + Send,
+        cl: impl Read + Seek + Send,
         mut nc: impl Write,
         names: &map::Names,
         output: &'o mut (dyn Write + Send),
     ) -> Result<(Report, PendingFiles), Error> {
+        self.mapped(cl, names, output, |run, reader, first, map| {
+            let (result, map) = run.post_reader(reader, first, Some(map), &mut nc);
+            Ok((result?, map))
+        })
+    }
+
+    /// Posts a CL file with its line map, in which the digest of what was read comes last: `post`
+    /// gets the run, the reader, what the first pass found, and the map, and gives the map back.
+    pub(crate) fn mapped<T>(
+        self,
+        mut cl: impl Read + Seek + Send,
+        names: &map::Names,
+        output: &'o mut (dyn Write + Send),
+        post: impl FnOnce(
+            Self,
+            Reader<'_>,
+            Option<FirstPass>,
+            map::Writer<'o>,
+        ) -> Result<(T, Option<map::Writer<'o>>), Error>,
+    ) -> Result<T, Error> {
         let cant = |error| files::cant_read(Path::new(&names.cl), &error);
         let first = self.first_pass(&mut cl)?;
         let mut cl = map::Digested::new(cl).map_err(cant)?;
@@ -331,8 +351,7 @@ impl<'o> Run<'o> {
         let cant_write = |error| files::cant_write(Path::new("the line map"), &error);
         let module = &self.program.shared.module;
         let map = map::Writer::new(output, names, module, self.program.nc_page());
-        let (result, map) = self.post_reader(reader, first, Some(map), &mut nc);
-        let result = result?;
+        let (result, map) = post(self, reader, first, map)?;
         let digest = cl.finish().map_err(cant)?;
         map.map_or(Ok(()), |map| map.finish(digest)).map_err(cant_write)?;
         Ok(result)

@@ -1,5 +1,5 @@
-//! Clamps of the rotary axes: none turns while it is held, whoever wrote the code. Where the post
-//! clamps them each turn is released, and nothing is cut in a tilted frame while they are free.
+//! Clamps of the rotary axes: no axis turns while it is clamped, by any code. Where the post clamps
+//! them, it releases them before each turn, and cuts in a tilted work plane only while they are clamped.
 
 use super::report::{Finding, FindingKind, Report};
 use super::settings::Settings;
@@ -11,7 +11,7 @@ use crate::motion::{Course, Event, Move};
 pub(super) struct Clamps {
     clamp: u32,
     release: u32,
-    /// The post clamps the axes by itself, in tilted frames or after rapid turns.
+    /// The post clamps the axes itself, in tilted work planes or after rapid turns.
     of_post: bool,
     /// Y is no axis: it stands for the second one of a plane for which the control turns C.
     y_turns: bool,

@@ -43,9 +43,6 @@ pub enum Solution {
 /// The rotary positions that those of the next motion are the nearest to, degrees.
 #[inline]
 pub(super) fn nearest_to(post: &Post) -> [f64; 2] {
-    if post.path.is_upright && !post.writes_tip() {
-        return [0.0; 2];
-    }
     post.path.turning.chosen.or(post.path.rotary).unwrap_or_else(|| on_tape(post))
 }
 

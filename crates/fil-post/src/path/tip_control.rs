@@ -34,33 +34,40 @@ pub(super) const OUTSIDE: &str = "Outside MULTAX/ON, cuts along Z with the rotar
 /// What helps where the tool can't go up before its length is taken off.
 const WHERE_IT_STANDS: &str = "Put a GOTO after the text or the words that move the tool, or set rotary.tip_end_retract = 0 for a control that does not move at G49.";
 
-/// Chooses between tool-tip control and positions of the axes for a motion outside of MULTAX/ON:
-/// where no record gives a tool axis, the tool lies as it does with all rotary axes at zero, and they
-/// stand there or may turn there away from the part, the program is that of a machine without them.
+/// The machine chooses by itself which motions go under TCPC: it has no tilted work planes for those
+/// outside of MULTAX/ON.
+fn chooses(post: &Post) -> bool {
+    post.control.tables.tip_output && !post.control.tables.frame_output
+}
+
+/// Chooses between TCPC and positions of the axes for a motion outside of MULTAX/ON: where no record
+/// gives a tool axis, the tool lies as it does with all rotary axes at zero, and they are there or may
+/// turn there away from the part, the program is that of a machine without them.
 pub(super) fn choose(post: &mut Post, target: Target, at_feed: bool) {
-    let tables = &post.control.tables;
-    if !tables.tip_output || tables.frame_output {
+    if !chooses(post) {
         return;
     }
-    let chain = tables.chain();
+    let chain = post.control.tables.chain();
     let (_, axis) = position::transformed(post, target);
     let is_along = (axis.normalize() - chain.tool.into_inner()).norm() < frame::SAME_AXIS;
     let stands = post.path.rotary.unwrap_or_else(|| position::on_tape(post));
     let may_turn = post.control.tip.is_away && !at_feed;
-    let is_at_zero = frame::still(stands, [0.0; 2]) || may_turn;
-    // In force it stays, as its end would come in the cut.
+    let turns = !frame::still(stands, [0.0; 2]);
+    // Active TCPC stays, as its end would come in the cut.
     let is_free = !post.control.may_name_tip();
     let is_in_three_axes = is_free && is_along && !post.path.axis.is_said;
-    post.path.is_upright = is_in_three_axes && is_at_zero && chain.reaches([0.0; 2]);
+    post.path.is_upright = is_in_three_axes && (!turns || may_turn) && chain.reaches([0.0; 2]);
+    if post.path.is_upright && turns && !post.writes_tip() {
+        post.path.turning.chosen = Some([0.0; 2]);
+    }
 }
 
-/// Ends tool-tip control before a motion that is written without it: the tool is at the part then.
+/// Ends TCPC before a motion that is output without it: the tool is at the part then.
 ///
 /// # Errors
 /// As [`end`].
 pub(super) fn end_outside(post: &mut Post) -> Result<()> {
-    let tables = &post.control.tables;
-    if !tables.tip_output || tables.frame_output || post.writes_tip() {
+    if !chooses(post) || post.writes_tip() {
         return Ok(());
     }
     end(&mut post.control)?;

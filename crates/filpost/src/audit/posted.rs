@@ -2,17 +2,13 @@
 
 use std::io::Cursor;
 
-use fil_cl::reader::Reader;
 use fil_nc::source::Source;
 
 use super::Audit;
 use crate::error::Error;
-use crate::files;
-use crate::map::{self, Names};
-use crate::passes::Pass;
+use crate::map::Names;
 use crate::posted::Posted;
 use crate::run::Run;
-use crate::source::Stream;
 
 /// The name of the program in messages.
 const NAME: &str = "the program";
@@ -47,21 +43,13 @@ impl Run<'_> {
 
     fn post_text_audited(self, cl: &[u8]) -> Result<(Posted, Audit), Error> {
         let (judge, again) = (self.of_program(self.program.clone()), self.again());
-        let name = self.name();
-        let cant = |error| files::cant_read(name.as_ref(), &error);
-        let names = Names { cl: name.clone(), fil: self.program.fil_files(), ..Names::default() };
+        let names = Names { cl: self.name(), fil: self.program.fil_files(), ..Names::default() };
         let mut lines = Vec::new();
-        let first = self.first_pass(&mut Cursor::new(cl))?;
-        let mut text = map::Digested::new(Cursor::new(cl)).map_err(cant)?;
-        let reader = Reader::seekable(&mut text, &name, self.options());
-        let pass = Pass::writing(first, self.program.has_script());
-        let (page, module) = (self.program.nc_page(), self.program.clone());
-        let writer = map::Writer::new(&mut lines, &names, &module.shared.module, page);
-        let records = Stream::Cl(Box::new(reader));
-        let (mut posted, pending, writer) = self.post_whole(records, pass, Some(writer))?;
-        let digest = text.finish().map_err(cant)?;
-        let written = writer.map_or(Ok(()), |writer| writer.finish(digest));
-        written.map_err(|error| files::cant_write("the line map".as_ref(), &error))?;
+        let (mut posted, pending) =
+            self.mapped(Cursor::new(cl), &names, &mut lines, |run, reader, first, map| {
+                let (posted, pending, map) = run.post_text_read(reader, first, Some(map))?;
+                Ok(((posted, pending), map))
+            })?;
         again.warn_of_undecided(cl, &mut posted.report)?;
         let nc = Source::memory(posted.bytes());
         let audit = judge.audit(cl, (&nc, NAME), &mut Cursor::new(lines))?;

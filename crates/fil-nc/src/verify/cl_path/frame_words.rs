@@ -47,8 +47,18 @@ pub struct FrameWords {
 pub(super) struct Matrix {
     pub(super) rows: Matrix3x4<f64>,
     pub(super) turns_axis: bool,
-    /// A block of an author has turned a table: a tool axis of a point turns it elsewhere.
-    pub(super) by_author: bool,
+    pub(super) of: Mover,
+}
+
+/// What moves the points by a matrix.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mover {
+    /// The settings of the machine: no word takes it away.
+    Machine,
+    /// A word of the CL file.
+    Record,
+    /// A block of an author that has turned a table: a tool axis of a point turns it elsewhere.
+    Author,
 }
 
 /// The frame that points of the CL file are in; lengths in CL units.
@@ -60,13 +70,16 @@ pub(super) struct Frame {
     pub(super) along: Vector3<f64>,
     /// A matrix without OPTION leaves the tool axis alone.
     pub(super) leaves_axis: bool,
-    /// The matrix is that of the machine, which no word takes away.
-    pub(super) of_machine: bool,
     pub(super) words: FrameWords,
     pub(super) named: NamedFrames,
 }
 
 impl Frame {
+    /// True where a matrix of this origin moves the points.
+    pub(super) fn is_moved_by(&self, mover: Mover) -> bool {
+        self.matrix.as_ref().is_some_and(|matrix| matrix.of == mover)
+    }
+
     /// True for a preparatory function that chooses a work offset.
     pub(super) fn chooses_offset(&self, code: f64) -> bool {
         let is_own = |(first, last)| (f64::from(first)..=f64::from(last)).contains(&code);
@@ -77,7 +90,7 @@ impl Frame {
 
 impl State {
     pub(super) fn trans(&mut self, record: &Record) -> Vec<ExpectedStep> {
-        if self.frame.of_machine {
+        if self.frame.is_moved_by(Mover::Machine) {
             let what = "TRANS beside input.matrix".to_string();
             return vec![ExpectedStep::Unknown { what, effect: Effect::Path }];
         }
@@ -93,7 +106,7 @@ impl State {
             _ if values.len() == 12 => {
                 let rows = Matrix3x4::from_row_slice(&values);
                 let turns_axis = option.is_none() && !self.frame.leaves_axis;
-                self.frame.matrix = Some(Matrix { rows, turns_axis, by_author: false });
+                self.frame.matrix = Some(Matrix { rows, turns_axis, of: Mover::Record });
             }
             _ => {
                 return vec![ExpectedStep::Unknown {
@@ -123,7 +136,8 @@ impl State {
 
     /// TRACUT as the machine reads it; `None` where it does not.
     pub(super) fn tracut(&mut self, record: &Record) -> Option<Vec<ExpectedStep>> {
-        if self.frame.of_machine || self.frame.words.tracut == InputTracut::Refused {
+        if self.frame.is_moved_by(Mover::Machine) || self.frame.words.tracut == InputTracut::Refused
+        {
             return None;
         }
         if record.has(w::NOMORE) || record.has(w::OFF) {
@@ -132,7 +146,7 @@ impl State {
         }
         let values = numbers(record);
         let rows = (values.len() == 12).then(|| Matrix3x4::from_row_slice(&values))?;
-        self.frame.matrix = Some(Matrix { rows, turns_axis: true, by_author: false });
+        self.frame.matrix = Some(Matrix { rows, turns_axis: true, of: Mover::Record });
         Some(Vec::new())
     }
 
@@ -172,7 +186,7 @@ impl State {
         match self.frame.words.table {
             RotaryTableWords::PointsStay => {
                 let rows = slides(forward, turned, unit);
-                self.frame.matrix = Some(Matrix { rows, turns_axis: true, by_author: false });
+                self.frame.matrix = Some(Matrix { rows, turns_axis: true, of: Mover::Record });
             }
             _ => {
                 self.tool.axis = forward.axis(turned);
@@ -210,13 +224,13 @@ impl State {
             let word = block.words.iter().find(|word| Some(word.letter) == letter);
             *turned = word.map(|word| word.number.value()).or(*turned);
         }
-        let by_other = self.frame.matrix.as_ref().is_some_and(|matrix| !matrix.by_author);
+        let by_other = self.frame.matrix.as_ref().is_some_and(|matrix| matrix.of != Mover::Author);
         let (Some(forward), false) = (&words.forward, by_other || words.turned == before) else {
             return;
         };
         let angles = words.turned.map(Option::unwrap_or_default);
         let rows = slides(forward, angles, unit);
-        self.frame.matrix = Some(Matrix { rows, turns_axis: true, by_author: true });
+        self.frame.matrix = Some(Matrix { rows, turns_axis: true, of: Mover::Author });
     }
 
     /// Which way positions count as a record turns the table, 1 or -1; `None` where either will do.

@@ -27,7 +27,7 @@ use nalgebra::{Matrix3x4, Point3, Vector3};
 use super::expected_step::{End, ExpectedStep, Step};
 use super::statements::{numbers, numbers_beside, whole};
 pub use frame_words::FrameWords;
-use frame_words::{Frame, Matrix};
+use frame_words::{Frame, Matrix, Mover};
 use thread::Threads;
 pub use words::{ignored_words, knows_word};
 
@@ -199,8 +199,8 @@ impl<'r> ClPath<'r> {
     #[must_use]
     pub fn through(mut self, matrix: Option<Matrix3x4<f64>>) -> Self {
         let turns_axis = !self.state.frame.leaves_axis;
-        self.state.frame.of_machine = matrix.is_some();
-        self.state.frame.matrix = matrix.map(|rows| Matrix { rows, turns_axis, by_author: false });
+        let of_machine = |rows| Matrix { rows, turns_axis, of: Mover::Machine };
+        self.state.frame.matrix = matrix.map(of_machine);
         self
     }
 

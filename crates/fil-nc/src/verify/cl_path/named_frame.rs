@@ -5,7 +5,7 @@ use fil_machine::locations::InputCsys;
 use nalgebra::{Matrix3x4, Matrix4, Vector3};
 
 use super::State;
-use super::frame_words::Matrix;
+use super::frame_words::{Matrix, Mover};
 use crate::verify::statements::numbers;
 
 /// Numbers of two frames that differ by less are the same.
@@ -67,7 +67,7 @@ impl State {
         }
         let into_first = first.try_inverse().unwrap_or_else(Matrix4::identity) * frame;
         let rows: Matrix3x4<f64> = into_first.fixed_rows::<3>(0).into_owned();
-        let matrix = Matrix { rows, turns_axis: true, by_author: false };
+        let matrix = Matrix { rows, turns_axis: true, of: Mover::Record };
         self.frame.matrix = (!near(first, &frame)).then_some(matrix);
     }
 }

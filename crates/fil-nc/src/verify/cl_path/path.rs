@@ -5,7 +5,7 @@ use fil_cl::{Record, Vocabulary};
 use fil_machine::cycle_kind::CycleKind;
 use nalgebra::{Point3, Vector3};
 
-use super::frame_words::Matrix;
+use super::frame_words::{Matrix, Mover};
 use super::{Cycle, State, Waiting};
 use crate::forward::Pose;
 use crate::motion::Rate;
@@ -28,7 +28,7 @@ impl State {
         vocabulary: &Vocabulary,
     ) -> Option<ExpectedStep> {
         let axis = record.axis().map_or(self.tool.axis, Vector3::from);
-        if record.axis().is_some() && self.frame.matrix.as_ref().is_some_and(|it| it.by_author) {
+        if record.axis().is_some() && self.frame.is_moved_by(Mover::Author) {
             self.frame.matrix = None;
         }
         let point = match record.point() {
