@@ -193,7 +193,8 @@ fn table(post: &Post, items: &mut Items) -> Result<usize> {
 /// Where a table stands, degrees, over any number of turns.
 fn stands(post: &Post, index: usize, items: &Items) -> Result<f64> {
     let Some(here) = post.control.stands(index + 3) else {
-        return Err(items.error("INCR: the table position is not known"));
+        let diag = items.error("INCR: the table position is not known");
+        return Err(Box::new(diag.hint("Give the angle from zero: with ABSOL, or without INCR.")));
     };
     Ok(post.path.rotary.map_or(here, |angles| angles[index]))
 }

@@ -1,9 +1,10 @@
-//! Tool-tip control: G43.4 H, or G43.5 H where the direction of the tool is a vector, and G49.
+//! TCPC: G43.4 H, or G43.5 H where the direction of the tool is a vector, and G49.
 
 use fil_diag::Result;
 use fil_machine::letters::H;
 use fil_machine::{FunctionCode, locations as loc};
 
+use super::modes;
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control_state::modal;
@@ -25,6 +26,7 @@ pub fn begin(control: &mut Control, (offset, cause): (i64, Cause)) -> Result<()>
     let Some(tenths) = tenths.and_then(|tenths| u32::try_from(tenths).ok()) else {
         return PostCode::NoCode.err(format!("{name} has no code for TCPC"));
     };
+    modes::before_length(control)?;
     control.because(cause, |control| {
         control.g_of_record(FunctionCode::tenths(tenths));
         control.word(H, offset as f64)?;
