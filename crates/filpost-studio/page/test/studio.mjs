@@ -151,13 +151,14 @@ export const tests = {
   },
 
   async "an option of a post is chosen in the form"(studio) {
-    const { page, close } = await studio();
+    const { page, read, close } = await studio();
     await begin(page, "haas-mill");
     const before = await nc(page);
     await setting(page, "options.style").selectOption("production");
     await page.waitForFunction((old) => document.querySelector("#nc .cm-content").innerText !== old, before);
-    await openFile(page, "machine.toml");
-    await page.locator("#editors .editor:visible .cm-content", { hasText: 'style = "production"' }).waitFor();
+    await page.keyboard.press("Control+s");
+    await page.waitForFunction(() => !document.querySelector("#tree .dirty"));
+    assert.match(await read("machine.toml"), /style = "production"/);
     await close();
   },
 

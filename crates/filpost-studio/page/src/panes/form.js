@@ -57,8 +57,14 @@ export class Form {
       this.list,
     );
     this.made = null;
+    /** The setting whose lines were looked for last, and what was found. */
+    this.touched = {};
     const later = debounced(200, () => this.load());
-    files.changed.on((name, by) => by !== "save" && (name === MACHINE || name.endsWith(".fil")) && later());
+    files.changed.on((name, by) => {
+      if (by === "save") return;
+      this.touched = {};
+      if (name === MACHINE || name.endsWith(".fil")) later();
+    });
     files.listed.on(later);
   }
 
@@ -145,7 +151,7 @@ export class Form {
     const keep = () => (control.dataset.shown = control.value);
     keep();
     control.addEventListener("change", keep);
-    const said = el("span", { "aria-live": "polite" });
+    const said = el("span", { "aria-live": "polite", id: `touched-${key}` }, this.touched.key === key ? this.touched.text : null);
     return el(
       "div",
       { class: `setting${isOwn ? " own" : ""}${quiet ? " idle" : ""}` },
@@ -154,20 +160,25 @@ export class Form {
         ? el("button", { type: "button", class: "reset", title: `Take ${label} out of machine.toml`, "aria-label": `Reset ${label}`, onclick: () => this.set(key, null) }, "↺")
         : null, quiet ? null : el("button", {
         type: "button", class: "touches", title: "Mark the lines of the program that depend on it", "aria-label": `Lines of ${label}`,
-        onclick: () => this.touch(key, others, said),
+        onclick: () => this.touch(key, others),
       }, "≡")),
       el("span", { class: "notes" }, ...notes.filter(Boolean).map((note) => el("span", {}, note)), said),
     );
   }
 
   /** Finds the lines of the program that depend on a setting: those that are otherwise with another value. */
-  async touch(key, others, said) {
+  async touch(key, others) {
     const request = this.posting.request(), { lines } = this.posting;
+    // The list may be made anew before the answer is there.
+    const say = (text) => {
+      this.touched = { key, text };
+      by(`touched-${key}`)?.replaceChildren(text);
+    };
     if (!request || !this.posting.answer?.nc) {
-      said.textContent = "there is no program";
+      say("there is no program");
       return;
     }
-    said.textContent = "…";
+    say("…");
     let refused = 0;
     for (const value of others.slice(0, MOST_TRIED)) {
       const answer = await this.ask({ ...request, set: [...(request.set ?? []), `${key}=${value}`] }).catch(() => ({}));
@@ -178,13 +189,13 @@ export class Form {
       const other = answer.nc.replaceAll("\r\n", "\n").split("\n");
       const { made, gone } = changedLines(other, lines);
       if (!made.length && !gone) continue;
-      said.textContent = `${counted(made.length, "line")} (${value} gives other ones)`;
+      say(`${counted(made.length, "line")} (${value} gives other ones)`);
       this.showLines(made);
       return;
     }
     this.showLines([]);
-    said.textContent = refused && refused >= Math.min(others.length, MOST_TRIED)
-      ? "other values are refused with this part" : "no line of this part";
+    say(refused && refused >= Math.min(others.length, MOST_TRIED)
+      ? "other values are refused with this part" : "no line of this part");
   }
 
   settingRow(setting) {
