@@ -411,9 +411,10 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
     // The control returns to where it stood when its cycle began, which is lower than the level
     // before ours where another cycle has left the tool on its R level.
     let of_control = cycle.in_force.map(|last| last.initial).or(here);
-    let is_named = cycle.retract.is_some_and(|retract| retract > 0.0);
-    let is_high = here.is_some_and(|here| above(here, wanted) > rounding);
-    let goes_down = is_named && above(wanted, hole.clear) > SAME_LEVEL && is_high;
+    // RETURN names a level above the R plane.
+    let is_named = cycle.retract.is_some_and(|retract| retract > 0.0)
+        && above(wanted, hole.clear) > SAME_LEVEL;
+    let goes_down = is_named && here.is_some_and(|here| above(here, wanted) > rounding);
     let moves = below || goes_down;
     let level = if moves { wanted } else { of_control.or(initial).unwrap_or(wanted) };
     if moves || unknown {
@@ -443,7 +444,7 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
         None => false,
         Some(0.0) => true,
         // The level of the control was another hole's, which may be rounded to the same digits.
-        Some(_) => above(level, wanted) > -2.0 * rounding && above(wanted, hole.clear) > SAME_LEVEL,
+        Some(_) => is_named && above(level, wanted) > -2.0 * rounding,
     };
     Ok(())
 }
