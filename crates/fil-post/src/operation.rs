@@ -324,6 +324,8 @@ pub enum End {
     Stay,
     /// REWIND.
     Rewind,
+    /// AUXFUN with this code, in place of the one that the machine has.
+    By(FunctionCode),
     /// The end of the CL file: as REWIND, or END on a machine without it.
     OfFile,
 }

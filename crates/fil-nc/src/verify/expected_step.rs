@@ -166,6 +166,8 @@ pub enum End {
     Stay,
     /// REWIND.
     Rewind,
+    /// AUXFUN with this code.
+    By(u32),
     /// By its own end: FINI, or the end of the text.
     OfFile,
 }

@@ -161,6 +161,35 @@ fn write_start(control: &mut Control) -> Result<()> {
 /// # Errors
 /// Cutter compensation that is still on; a code that does not fit its address.
 pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
+    finish(control)?;
+    for block in user_blocks::END.read(&control.commons) {
+        control.because(Cause::default(), |control| control.write_text(&block, true))?;
+    }
+    end_code(control, code)?;
+    close(control)
+}
+
+/// Writes an author's code that ends the program; subprograms may follow it.
+///
+/// # Errors
+/// As [`end`].
+pub fn end_by(control: &mut Control, code: FunctionCode) -> Result<()> {
+    finish(control)?;
+    end_code(control, Some(code))
+}
+
+fn end_code(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
+    control.require(Act::ProgramEnd)?;
+    if let Some(code) = code {
+        control.m(code);
+    }
+    control.write_block()?;
+    control.state.set(modal::PROGRAM_END, true);
+    Ok(())
+}
+
+/// Ends what goes on over several blocks.
+fn finish(control: &mut Control) -> Result<()> {
     control.begin()?;
     super::word_address::cycle::cancel(control)?;
     let may_drill = control.state.was_in_cycle();
@@ -169,16 +198,6 @@ pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
     if may_drill {
         control.family().leave_cycle(control)?;
     }
-    for block in user_blocks::END.read(&control.commons) {
-        control.because(Cause::default(), |control| control.write_text(&block, true))?;
-    }
-    control.require(Act::ProgramEnd)?;
-    if let Some(code) = code {
-        control.m(code);
-    }
-    control.write_block()?;
-    close(control)?;
-    control.state.set(modal::PROGRAM_END, true);
     Ok(())
 }
 

@@ -11,7 +11,6 @@ use crate::control::word_address::motion;
 use crate::operation::Operation;
 use crate::post::Post;
 use fil_diag::Result;
-use fil_machine::letters;
 
 /// Carries out an operation: its blocks are on the tape when this returns, of an arc in very many
 /// blocks the first ones.
@@ -61,10 +60,7 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     skip::note(post, &operation);
     match operation {
         Operation::Text(_) | Operation::Words(_) => write_of_others(post, operation),
-        Operation::Function(letter, code) => {
-            if letter == letters::M && post.control.ends_main_program(code) {
-                way_home::before_end(post)?;
-            }
+        Operation::Function(..) => {
             write_other(post, operation)?;
             compensation_side::refuse_of_others(post)
         }

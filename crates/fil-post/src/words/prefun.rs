@@ -6,7 +6,7 @@ use fil_machine::letters::{G, M};
 use fil_machine::{FunctionCode, Letter};
 
 use crate::items::Items;
-use crate::operation::Operation;
+use crate::operation::{End, Operation};
 use crate::path::carry_out;
 use crate::post::Post;
 
@@ -30,8 +30,14 @@ fn write(post: &mut Post, items: &mut Items, letter: Letter) -> Result<()> {
     let code = code(post, items)?;
     let next = items.flag(w::NEXT);
     items.deny_rest()?;
-    let of = if next { Operation::WithMotion } else { Operation::Function };
-    carry_out(post, of(letter, code))
+    let operation = if next {
+        Operation::WithMotion(letter, code)
+    } else if letter == M && post.control.ends_main_program(code) {
+        Operation::End(End::By(code))
+    } else {
+        Operation::Function(letter, code)
+    };
+    carry_out(post, operation)
 }
 
 /// The function of the number.

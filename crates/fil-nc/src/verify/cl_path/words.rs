@@ -236,7 +236,11 @@ fn mode(record: &Record) -> Steps {
 
 fn auxiliary(record: &Record) -> Option<Steps> {
     let code = numbers(record).first().and_then(|code| whole(*code))?;
-    Some(vec![ExpectedStep::Auxiliary(code)])
+    // ISO 6983 ends programs by these, and so does each control.
+    Some(vec![match code {
+        2 | 30 => ExpectedStep::End(End::By(code)),
+        _ => ExpectedStep::Auxiliary(code),
+    }])
 }
 
 fn offset_by_number(record: &Record) -> Steps {

@@ -355,6 +355,7 @@ impl Settings<'_> {
         match end {
             End::Stay => code(loc::PROGRAM_END_CODE),
             End::Rewind => code(loc::PROGRAM_REWIND_CODE),
+            End::By(code) => Some(code),
             End::OfFile => code(loc::PROGRAM_REWIND_CODE).or(code(loc::PROGRAM_END_CODE)),
         }
     }

@@ -29,18 +29,20 @@ pub fn stop(control: &mut Control, stop: Stop) -> Result<()> {
 /// The machine has no such code; and as [`program::end`].
 pub fn end(control: &mut Control, end: End) -> Result<()> {
     if control.state.may_be(modal::PROGRAM_END, true) {
-        if end == End::OfFile {
-            return program::close_ended(control);
-        }
-        if end == End::Rewind {
-            let message = "REWIND: the program has ended before".to_string();
-            control.warnings.add(PostCode::IgnoredPart, message);
-        }
+        let word = match end {
+            End::OfFile => return program::close_ended(control),
+            End::Stay => return Ok(()),
+            End::Rewind => "REWIND",
+            End::By(_) => "AUXFUN",
+        };
+        let message = format!("{word}: the program has ended before");
+        control.warnings.add(PostCode::IgnoredPart, message);
         return Ok(());
     }
     let code = match end {
         End::Stay => Some(control.code(loc::PROGRAM_END_CODE, "END")?),
         End::Rewind => Some(control.code(loc::PROGRAM_REWIND_CODE, "REWIND")?),
+        End::By(code) => return program::end_by(control, code),
         End::OfFile => control
             .code_if_any(loc::PROGRAM_REWIND_CODE)
             .or_else(|| control.code_if_any(loc::PROGRAM_END_CODE)),
