@@ -2,10 +2,9 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
 
 use filpost::case::Case;
-use filpost::{Builder, Diag, Error, PendingFiles, Program, files, includes, select};
+use filpost::{Diag, Error, PendingFiles, files, select};
 
 use crate::args::{Chosen, TestArgs};
 use crate::errors::CommandCode;
@@ -15,7 +14,8 @@ use crate::{Status, output, setup};
 const MOST_FILES: usize = 1000;
 const MOST_BYTES: u64 = 64 << 20;
 
-/// Makes a folder with a copy of each file and a case.toml, and runs the case.
+/// Makes a folder with the CL file, the program and a case.toml, and runs the case. It names the
+/// post's own files where they are: the case then tests what becomes of them.
 ///
 /// # Errors
 /// E0804 for a folder that has a case already; files that can't be read or
@@ -25,7 +25,7 @@ pub fn run(folder: &Path, args: &TestArgs) -> Result<Status, Error> {
         let message = format!("{} has a case.toml", folder.display());
         return Err(Error::Run(Box::new(Diag::new(CommandCode::CaseExists, message))));
     }
-    let mut making = Making::default();
+    let mut making = Making { folder, copies: Vec::new() };
     let toml = making.describe(args)?;
     making.refuse_others(folder)?;
     std::fs::create_dir_all(folder).map_err(|error| files::cant_write(folder, &error))?;
@@ -62,14 +62,14 @@ fn report(folder: &Path) -> Result<Status, Error> {
     Ok(if outcome.failure.is_none() { Status::Done } else { Status::Failed })
 }
 
-/// The files of a case to be.
-#[derive(Default)]
-struct Making {
+/// A case to be.
+struct Making<'a> {
+    folder: &'a Path,
     /// Names in the case, and where they come from.
     copies: Vec<(String, PathBuf)>,
 }
 
-impl Making {
+impl Making<'_> {
     /// Collects the files; gives the text of the case.toml.
     fn describe(&mut self, args: &TestArgs) -> Result<String, Error> {
         let mut text = String::new();
@@ -82,8 +82,7 @@ impl Making {
         let mut fil = args.fil.clone();
         self.machine(&args.chosen, &mut fil, &mut text)?;
         let names: Vec<String> =
-            fil.iter().map(|path| self.copy(path)).collect::<Result<_, _>>()?;
-        self.included(&fil)?;
+            fil.iter().map(|path| self.named(path)).collect::<Result<_, _>>()?;
         list(&mut text, "fil", &names);
         list(&mut text, "set", &args.chosen.set);
         if let Some(granted) = &args.grant {
@@ -111,9 +110,9 @@ impl Making {
         Ok(text)
     }
 
-    /// The machine: a ready post by its name, anything else as a copy.
+    /// The machine: a ready post by its name, anything else by its file.
     fn machine(
-        &mut self,
+        &self,
         chosen: &Chosen,
         fil: &mut Vec<PathBuf>,
         text: &mut String,
@@ -138,8 +137,14 @@ impl Making {
             (None, Some(path)) => ("machine", path.clone()),
             (None, None) => return Ok(()),
         };
-        let _ = writeln!(text, "{key} = {}", quoted(&self.copy(&path)?));
+        let _ = writeln!(text, "{key} = {}", quoted(&self.named(&path)?));
         Ok(())
+    }
+
+    /// The name of a file of the post, from the folder of the case.
+    fn named(&self, path: &Path) -> Result<String, Error> {
+        files::read(path)?;
+        Ok(from_folder(&absolute(self.folder), &absolute(path)))
     }
 
     /// Notes a file that has to be copied; gives its name in the case.
@@ -211,38 +216,30 @@ impl Making {
         }
         Ok(())
     }
+}
 
-    /// Files that INCLUD reads, under their names relative to the FIL files.
-    fn included(&mut self, fil: &[PathBuf]) -> Result<(), Error> {
-        let read = Arc::new(Mutex::new(Vec::new()));
-        let mut builder = Program::builder();
-        for path in fil {
-            let text = files::read_text(path, None)?;
-            builder = builder.fil(&path.display().to_string(), &text);
-        }
-        watched(builder, fil, Arc::clone(&read)).build()?;
-        let names = read.lock().map(|names| names.clone()).unwrap_or_default();
-        for name in names {
-            let path = PathBuf::from(&name);
-            let folders = fil.iter().filter_map(|file| file.parent());
-            let below = folders.filter_map(|folder| path.strip_prefix(folder).ok()).next();
-            let below = below.unwrap_or(&path).to_string_lossy().replace('\\', "/");
-            self.note(below, &path)?;
-        }
-        Ok(())
+/// The real path as far as there is one.
+fn absolute(path: &Path) -> PathBuf {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    let there = path.ancestors().find_map(|above| Some((above, above.canonicalize().ok()?)));
+    match there {
+        Some((above, real)) => path.strip_prefix(above).map_or(real.clone(), |rest| {
+            rest.components().fold(real, |path, part| path.join(part))
+        }),
+        None => path,
     }
 }
 
-/// The builder, with a note taken of each file that INCLUD reads.
-fn watched(builder: Builder, fil: &[PathBuf], read: Arc<Mutex<Vec<String>>>) -> Builder {
-    let mut include = includes::beside(fil, None);
-    builder.includes(move |from, name| {
-        let included = include(from, name)?;
-        if let Ok(mut read) = read.lock() {
-            read.push(included.name.clone());
-        }
-        Ok(included)
-    })
+/// A path as it is named in a folder, with `/` on each system.
+fn from_folder(folder: &Path, path: &Path) -> String {
+    let common = folder.components().zip(path.components()).take_while(|(a, b)| a == b).count();
+    if common == 0 {
+        return path.to_string_lossy().into_owned();
+    }
+    let up = folder.components().skip(common).map(|_| "..".to_string());
+    let down = path.components().skip(common);
+    let down = down.map(|part| part.as_os_str().to_string_lossy().into_owned());
+    up.chain(down).collect::<Vec<_>>().join("/")
 }
 
 fn quoted(text: &str) -> String {

@@ -108,6 +108,18 @@ fn a_difference_of_letters_alone_is_said_to_be_one() {
 }
 
 #[test]
+fn a_program_whose_lines_end_with_cr_lf_passes_its_case() {
+    let machine = "base = 'fanuc-mill'\ntape.line_end = 2\n[options]\nstyle = 'plain'\n";
+    let case = "cl = 'part.ncl'\nmachine = 'machine.toml'\nexpect = 'part.nc'\norigin = 'ours'\n";
+    let files = [("part.ncl", SMALL), ("machine.toml", machine), ("case.toml", case)];
+    let place = place(&files);
+    place.run(&["test", ".", "--update"]);
+    assert!(place.text("part.nc").is_some_and(|text| text.contains("\r\n")));
+    let ran = place.run(&["test", "."]);
+    assert_eq!(ran.status, 0, "{}", ran.out);
+}
+
+#[test]
 fn a_listing_is_compared() {
     let case = format!("{CASE}listing = 'part.lst'\n");
     let files = [("part.ncl", SMALL), ("case.toml", &case), ("part.nc", NC), ("part.lst", "")];

@@ -35,16 +35,33 @@ fn a_case_is_made_from_files_that_are_there() {
     let said = ran.out + &ran.err;
     assert!(said.starts_with("cases/one is made; "), "{said}");
     assert_eq!(place.text("cases/one/part.nc").unwrap_or_default(), NC);
-    assert_eq!(place.text("cases/one/lib/speed.fil").unwrap_or_default(), speed);
     let toml = place.text("cases/one/case.toml").unwrap_or_default();
     assert!(
-        toml.contains("machine = \"m.toml\"") && toml.contains("fil = [\"all.fil\"]"),
+        toml.contains("machine = \"../../m.toml\"")
+            && toml.contains("fil = [\"../../scripts/all.fil\"]"),
         "{toml}"
     );
     assert!(toml.contains("ignore = [\"n\"]"), "{toml}");
     let again = place.run(&arguments);
     assert_eq!(again.status, 1);
     assert!(again.err.contains("E0804"), "{}", again.err);
+}
+
+#[test]
+fn a_case_tests_what_becomes_of_the_post() {
+    let place = Folder::new();
+    place.run(&["new", "own", "--base", "haas-mill"]);
+    let place = place.with("part.ncl", SMALL);
+    place.run(&["post", "part.ncl", "-p", "own", "-o", "part.nc"]);
+    let nc = ["--nc", "part.nc", "-p", "own"];
+    let made = ["test", "--init", "own/cases/two", "--cl", "part.ncl"];
+    let ran = place.run(&[&made[..], &nc[..]].concat());
+    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    assert_eq!(place.run(&["test", "own"]).out, "2 passed, 0 failed\n");
+    let machine = place.text("own/machine.toml").unwrap_or_default();
+    let place = place.with("own/machine.toml", &format!("seqno.increment = 5\n{machine}"));
+    let ran = place.run(&["test", "own"]);
+    assert!(ran.out.ends_with("0 passed, 2 failed\n"), "{}{}", ran.out, ran.err);
 }
 
 #[test]
@@ -115,7 +132,7 @@ fn a_case_has_the_clock_and_the_folder_of_its_script() {
     assert!(toml.contains("read = \"tables\"\nclock = \"2026-01-31T12:00:00\"\n"), "{toml}");
     assert_eq!(place.text("cases/one/tables/deep/speeds.txt").as_deref(), Some("T1 8000\n"));
     assert!(place.text("cases/one/tables/other.txt").is_some());
-    // The case stands alone.
+    // What the script reads was copied.
     std::fs::remove_dir_all(place.0.path().join("tables")).expect("the folder goes");
     let again = place.run(&["test", "cases"]);
     assert_eq!(again.out, "1 passed, 0 failed\n", "{}", again.err);

@@ -279,7 +279,7 @@ impl Case {
 
     fn compare_programs(&self, name: &str, wanted: String, ran: &Ran, outcome: &mut Outcome) {
         let by_words = self.file.tolerance.is_some() || !self.file.ignore.is_empty();
-        let shown = ran.page.decode_all(&ran.nc);
+        let shown = same_line_ends(&ran.page.decode_all(&ran.nc));
         if wanted != shown {
             let (file, found) = ((&*self.folder, name), (&ran.nc[..], &*shown));
             match self.sentences(&wanted, &shown) {
@@ -346,7 +346,12 @@ fn expected(path: &Path, page: CodePage) -> Result<String, Error> {
     } else {
         page.decode_all(&files::read(path)?).into_owned()
     };
-    Ok(text.replace("\r\n", "\n"))
+    Ok(same_line_ends(&text))
+}
+
+/// A text with LF: how the lines of a file end also depends on how it was checked out.
+fn same_line_ends(text: &str) -> String {
+    text.replace("\r\n", "\n")
 }
 
 /// The primary place of a diagnostic as `file:line`, the file without its folder.
