@@ -198,15 +198,15 @@ impl<C: Steps> Verifier<'_, C> {
             Some(Event::End { line, code, modes }) => {
                 self.next += 1;
                 self.check_standing(cl_line, line, &modes, false);
-                let must = self.settings.end_code(end).filter(|must| Some(*must) != code);
-                if let Some(must) = must.filter(|_| !self.own.has(line)) {
+                let must = self.settings.end_code(end);
+                if code != must && !self.own.has(line) {
                     let found = code.map_or("without a code".to_string(), |m| format!("with M{m}"));
-                    let message = format!("the program ends {found}, it should be M{must}");
+                    let wanted = match must {
+                        Some(must) => format!("it should be M{must}"),
+                        None => "the settings have no code for it".to_string(),
+                    };
+                    let message = format!("the program ends {found}, {wanted}");
                     self.find(FindingKind::End, Some(cl_line), Some(line), message);
-                }
-                if code.is_some() && !self.settings.has_end_code() && !self.own.has(line) {
-                    let message = "the program ends here, the settings have no code for it";
-                    self.find(FindingKind::End, Some(cl_line), Some(line), message.to_string());
                 }
             }
             None if self.settings.has_end_code() => {
