@@ -92,10 +92,12 @@ fn prepare_next(control: &mut Control, wanted: &ToolChange) -> Result<()> {
         NextTools::Some { other: None } | NextTools::None => first,
         NextTools::Unknown => None,
     };
-    match next.filter(|_| control.commons.read(loc::TOOL_PRESELECT)) {
-        Some(next) => control.family().write(control, Operation::SelectTool(next)),
-        None => Ok(()),
-    }
+    let Some(next) = next.filter(|_| control.commons.read(loc::TOOL_PRESELECT)) else {
+        return Ok(());
+    };
+    // The number is a word of a later record.
+    let cause = control.block.cause.whole();
+    control.because(cause, |control| control.family().write(control, Operation::SelectTool(next)))
 }
 
 /// Leaves the part along a tool that a head leans, where the machine has a change position of Z.
