@@ -80,10 +80,9 @@ fn say_again(control: &mut Control, unit: Unit, own: Own) -> Result<()> {
     }
     if !control.state.is(modal::UNITS, unit) {
         let wrong = control.state.get(modal::UNITS).is_some();
-        if !say(control, control.code_if_any(unit_code(unit))) && wrong {
+        if !say_unit(control, unit) && wrong {
             missing.push("the unit");
         }
-        control.state.set(modal::UNITS, unit);
     }
     if !control.state.is(modal::DISTANCE, Distance::Absolute) {
         let wrong = control.state.get(modal::DISTANCE).is_some();
@@ -155,6 +154,24 @@ fn say_what_x_is(control: &mut Control) -> Result<()> {
     }
     say(control, control.code_if_any(loc::LATHE_DIAMETER_CODE));
     Ok(())
+}
+
+/// Says the unit alone, before words that are no motion of the post: the other modes are the author's.
+///
+/// # Errors
+/// As a line on the tape.
+pub fn take_unit(control: &mut Control, unit: Unit) -> Result<()> {
+    match say_unit(control, unit) {
+        true => control.write_block(),
+        false => Ok(()),
+    }
+}
+
+/// Adds the code of the unit, which is in force from here on; says whether there is one.
+fn say_unit(control: &mut Control, unit: Unit) -> bool {
+    let is_said = say(control, control.code_if_any(unit_code(unit)));
+    control.state.set(modal::UNITS, unit);
+    is_said
 }
 
 /// Adds a code; says whether there is one.

@@ -5,7 +5,7 @@ use fil_machine::Letter;
 use fil_machine::letters::S;
 use fil_machine::locations::{self as loc, SeqnoOnText};
 
-use super::modes::{self, Own};
+use super::modes;
 use crate::control::Control;
 use crate::control::texts::{MessageMarks, clean_message, split_message};
 use crate::control_state::{ForeignBlock, Meaning, functions, modal};
@@ -52,7 +52,7 @@ fn say_what_it_counts_on(control: &mut Control, words: &[(Letter, f64)]) -> Resu
         && !is_said(|meaning| matches!(meaning, Meaning::SpeedMode(_)));
     if needs_unit {
         let unit = control.require_unit()?;
-        modes::require(control, unit, Own::Nothing)?;
+        modes::take_unit(control, unit)?;
     }
     match control.code_if_any(loc::SPINDLE_RPM_CODE).filter(|_| needs_turns) {
         Some(code) => {
