@@ -363,5 +363,9 @@ fil_diag::codes! {
         NoClearance = 599, Warning, "rapid down to the start of the holes",
             "CYCLE has neither CLEAR nor RAPTO, and the machine has no clearance of its own (cycle.auto_clearance): the tool goes at rapid to the start of each hole, and from hole to hole at that height.",
             "Give CLEAR. Ignore this if the holes start above the part.";
+        /// A machine with a tool list and a tool change, and a CL file without LOADTL.
+        NoTool = 721, Warning, "the CL file calls no tool",
+            "Neither LOADTL nor a script has called a tool: the program changes no tool and calls no tool length offset. The tool in the spindle moves with whatever offset is active.",
+            "Put LOADTL / n before the first motion.";
     }
 }

@@ -188,9 +188,23 @@ fn end_code(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
     Ok(())
 }
 
+/// Warns of a program for a tool changer in which nobody has called a tool or its length offset.
+fn warn_without_tool(control: &mut Control) {
+    let groups = control.state.groups();
+    let by_nobody = groups.know(modal::TOOL).is_not_commanded()
+        && groups.know(modal::NAMED_TOOL).is_not_commanded()
+        && groups.know(modal::LENGTH_OFFSET).is_not_commanded();
+    let changes_tools = control.commons.read(loc::PROGRAM_TOOL_LIST)
+        && control.code_if_any(loc::TOOL_CHANGE_CODE).is_some();
+    if changes_tools && by_nobody {
+        control.warnings.add(PostCode::NoTool, "there is no LOADTL".to_string());
+    }
+}
+
 /// Ends what goes on over several blocks.
 fn finish(control: &mut Control) -> Result<()> {
     control.begin()?;
+    warn_without_tool(control);
     super::word_address::cycle::cancel(control)?;
     let may_drill = control.state.was_in_cycle();
     control.skip_blocks(false)?;

@@ -47,6 +47,11 @@ impl<T: Copy + PartialEq> Know<T> {
         }
     }
 
+    /// True if nothing in this program has commanded it.
+    pub fn is_not_commanded(self) -> bool {
+        matches!(self, Know::Unknown(Source::NotCommanded))
+    }
+
     /// True if it may have this value: in one alternative, or since it is unknown.
     pub fn may_be(self, wanted: T) -> bool {
         match self {
