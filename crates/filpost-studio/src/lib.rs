@@ -25,5 +25,6 @@ mod http;
 mod page;
 mod presence;
 mod server;
+mod works;
 
 pub use server::Studio;

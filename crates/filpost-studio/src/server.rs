@@ -16,6 +16,7 @@ use crate::folder::Folder;
 use crate::http::{self, Refusal, Request};
 use crate::page;
 use crate::presence::Presence;
+use crate::works::Works;
 
 /// Most connections at a time.
 const MOST_CONNECTIONS: usize = 64;
@@ -45,6 +46,7 @@ struct Desk {
     /// `127.0.0.1:PORT`.
     host: String,
     presence: Presence,
+    works: Works,
     connections: AtomicUsize,
 }
 
@@ -69,6 +71,7 @@ impl Studio {
             token,
             host,
             presence: Presence::default(),
+            works: Works::default(),
             connections: AtomicUsize::new(0),
         };
         Ok(Studio { listener, desk: Arc::new(desk) })
@@ -181,12 +184,16 @@ impl Desk {
 
     fn ask(&self, body: &[u8]) -> Result<Value, Refusal> {
         let request: Value = serde_json::from_slice(body).map_err(|_| Refusal::Malformed)?;
-        if let Some(answer) = self.folder.answer(&request) {
+        let own = self.folder.answer(&request).or_else(|| self.works.answer(&request));
+        if let Some(answer) = own {
             return Ok(answer);
         }
-        // A fault of one request must not end the studio with what is not saved in its page.
-        let answer = catch_unwind(AssertUnwindSafe(|| filpost_wasm::answer_to(request)));
-        Ok(answer.unwrap_or_else(|_| json!({ "failure": "an internal fault of filpost" })))
+        Ok(self.works.watched(request, |request, watch| {
+            // A fault of one request must not end the studio with what is not saved in its page.
+            let work = AssertUnwindSafe(|| filpost_wasm::answer_watched(request, watch));
+            catch_unwind(work)
+                .unwrap_or_else(|_| json!({ "failure": "an internal fault of filpost" }))
+        }))
     }
 }
 

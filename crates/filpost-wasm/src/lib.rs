@@ -19,6 +19,8 @@
 //! from its host.
 #![deny(missing_docs)]
 
+#[cfg(feature = "plot")]
+mod audit;
 #[cfg(target_family = "wasm")]
 mod border;
 #[cfg(feature = "debug")]
@@ -45,6 +47,7 @@ mod post;
 mod setup;
 #[cfg(feature = "simulate")]
 mod simulate;
+mod watch;
 
 use filpost::{Diag, Error};
 use serde_json::{Value, json};
@@ -53,6 +56,7 @@ use diagnostics::all;
 #[cfg(feature = "post")]
 use editor::Edited;
 use fields::Fields;
+pub use watch::Watch;
 
 /// Why a request is not understood.
 struct Misuse(String);
@@ -89,15 +93,21 @@ pub fn answer(request: &[u8]) -> Vec<u8> {
 
 /// The same for values.
 pub fn answer_to(request: Value) -> Value {
-    read(request).unwrap_or_else(|Misuse(what)| json!({ "misuse": what }))
+    answer_watched(request, &Watch::default())
 }
 
-fn read(request: Value) -> Result<Value, Misuse> {
+/// The same for a request that another thread watches, and stops where it is to post.
+pub fn answer_watched(request: Value, watch: &Watch) -> Value {
+    read(request, watch).unwrap_or_else(|Misuse(what)| json!({ "misuse": what }))
+}
+
+#[cfg_attr(not(feature = "post"), expect(unused_variables, reason = "posts are watched"))]
+fn read(request: Value, watch: &Watch) -> Result<Value, Misuse> {
     let mut fields = Fields::of(request)?;
     let what = fields.needed("do")?;
     Ok(match what.as_str() {
         #[cfg(feature = "post")]
-        "post" => post::post(&job::Job::read(fields)?),
+        "post" => post::post(&job::Job::read(fields)?, watch),
         #[cfg(feature = "plot")]
         "plot" => plot::Plot::read(fields)?.draw(),
         #[cfg(feature = "plot")]
@@ -126,6 +136,8 @@ fn read(request: Value) -> Result<Value, Misuse> {
         "case" => form::case(fields)?,
         #[cfg(feature = "plot")]
         "verify" => judge::verify(fields)?,
+        #[cfg(feature = "plot")]
+        "audit" => audit::audit(fields)?,
         #[cfg(feature = "plot")]
         "compare" => judge::compare(fields)?,
         #[cfg(feature = "plot")]

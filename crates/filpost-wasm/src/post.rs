@@ -1,12 +1,11 @@
 //! Posting: the NC program and what made each of its blocks.
 
-use std::io::Cursor;
-
 use filpost::{Event, Origin, Program, Report};
 use serde_json::{Value, json};
 
 use crate::diagnostics::all;
 use crate::job::Job;
+use crate::watch::Watch;
 use crate::{Fault, refused};
 
 /// A program that was posted.
@@ -20,12 +19,12 @@ struct Posted {
 /// Answers a request to post: `nc` with `blocks`, or `errors`; always `warnings`. Where the
 /// program is not in UTF-8, `encoding` names how it is and `bytes` has a character for each byte,
 /// U+0000 to U+00FF: it is they that go to the control.
-pub(crate) fn post(job: &Job) -> Value {
+pub(crate) fn post(job: &Job, watch: &Watch) -> Value {
     let program = match job.program() {
         Ok(program) => program,
         Err(fault) => return refused(&fault, &[]),
     };
-    let posted = match run(job, &program) {
+    let posted = match run(job, &program, watch) {
         Ok(posted) => posted,
         Err(fault) => return refused(&fault, program.warnings()),
     };
@@ -49,14 +48,14 @@ pub(crate) fn post(job: &Job) -> Value {
     answer
 }
 
-fn run(job: &Job, program: &Program) -> Result<Posted, Fault> {
+fn run(job: &Job, program: &Program, watch: &Watch) -> Result<Posted, Fault> {
     let (mut nc, mut origins) = (Vec::new(), Vec::new());
-    let watched = job.start(program)?.observe(|event| {
+    let watched = job.start(program)?.cancel(watch.token()).observe(|event| {
         if let Event::Block { text, origin, .. } = event {
             let lines = text.lines().count().max(1);
             origins.extend(std::iter::repeat_n(origin.clone(), lines));
         }
     });
-    let report = watched.stream_seekable(Cursor::new(job.cl.as_bytes()), &mut nc)?;
+    let report = watched.stream_seekable(watch.reading(&job.cl), &mut nc)?;
     Ok(Posted { nc, origins, report })
 }

@@ -236,3 +236,35 @@ fn a_breakpoint_in_a_block_stops_at_that_line_of_the_program() {
     let refused = debugged(&text, json!({ "cl": "UNITS / MM\nGOTO / 1, 2, 3\n" }));
     assert_eq!(refused["stopped"]["reason"], "exception", "{refused}");
 }
+
+#[test]
+fn an_audit_tells_what_a_script_changed() {
+    let audit = |fil: &str| {
+        ask(json!({
+            "do": "audit", "ready": "fanuc-mill", "cl": CL, "fil": [file("post.fil", fil)],
+        }))
+    };
+    let plain = audit("FINI\n");
+    assert_eq!((&plain["verdict"], &plain["changes"]), (&json!("unchanged"), &json!([])));
+    assert_eq!(plain["motions"]["asked"], plain["motions"]["made"]);
+    let changed = audit("CIMFIL/ON,SPINDL\nPOSTN/OUT,S,1200,M,3\nCIMFIL/OFF\nFINI\n");
+    assert_eq!(changed["verdict"], "changed", "{changed}");
+    let change = &changed["changes"][0];
+    assert_eq!(change["author"]["file"], "post.fil");
+    assert_eq!(change["author"]["line"], 2);
+    assert_eq!(change["cl_lines"], json!([3]));
+    let refused = audit("XX = SQRTFF(4)\nFINI\n");
+    assert!(refused["errors"][0]["code"].is_string(), "{refused}");
+}
+
+#[test]
+fn a_request_to_post_is_watched_and_stopped() {
+    let request = json!({ "do": "post", "ready": "fanuc-mill", "cl": CL });
+    let watch = filpost_wasm::Watch::default();
+    assert!(watch.share() < f64::EPSILON);
+    let posted = filpost_wasm::answer_watched(request.clone(), &watch);
+    assert!(posted["nc"].is_string() && watch.share() > 1.0 - f64::EPSILON, "{}", watch.share());
+    watch.stop();
+    let stopped = filpost_wasm::answer_watched(request, &watch);
+    assert_eq!((&stopped["errors"][0]["code"], &stopped["nc"]), (&json!("E0711"), &Value::Null));
+}

@@ -14,6 +14,13 @@ export function el(tag, properties = {}, ...children) {
   return made;
 }
 
+/** A text as elements: words between ` are code, and marks of stress are left out. */
+export function prose(text) {
+  return text.split("`").map((piece, at) => {
+    return at % 2 ? el("code", {}, piece) : el("span", {}, piece.replaceAll("**", "").replace(/\*(\S[^*]*)\*/g, "$1"));
+  });
+}
+
 /** The element of an id. */
 export const by = (id) => document.getElementById(id);
 

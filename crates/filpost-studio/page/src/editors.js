@@ -1,11 +1,12 @@
 // The editors: their findings, hovers, proposals and marked lines.
 import { autocompletion } from "@codemirror/autocomplete";
 import { setDiagnostics } from "@codemirror/lint";
-import { Annotation, EditorState, RangeSet, StateEffect, StateField } from "@codemirror/state";
+import { Annotation, Compartment, EditorState, RangeSet, StateEffect, StateField } from "@codemirror/state";
 import { Decoration, EditorView, gutter, GutterMarker, hoverTooltip, keymap } from "@codemirror/view";
 import { basicSetup } from "codemirror";
-import { el } from "./dom.js";
-import { languageOf } from "./languages.js";
+import { el, prose } from "./dom.js";
+import { languageOf, wordColours } from "./languages.js";
+import { isDark, themed } from "./theme.js";
 
 const mark = StateEffect.define();
 const freshen = StateEffect.define();
@@ -15,6 +16,19 @@ const miss = StateEffect.define();
 
 /** A change that did not come from the editor's user. */
 const fromOutside = Annotation.define();
+
+/** Whether an editor is dark. */
+const darkness = new Compartment();
+const darkNow = () => EditorView.darkTheme.of(isDark());
+
+/** What all editors have: the usual keys and marks, and the colours of a kind of text. */
+const common = (kind) => [basicSetup, darkness.of(darkNow()), wordColours, languageOf(kind), marked];
+
+/** An editor that follows when the page becomes dark or light. */
+function shaded(view) {
+  themed.on(() => view.dispatch({ effects: darkness.reconfigure(darkNow()) }));
+  return view;
+}
 
 /** Lines of a class, set by an effect with the positions of their starts. */
 function linesOf(name, wanted) {
@@ -174,10 +188,7 @@ export function markdown(text) {
     for (const paragraph of part.split(/\n\s*\n/).filter((piece) => piece.trim())) {
       // Links lead to pages that are not here: their words stay.
       const plain = paragraph.trim().replace(/\[([^\]]*)\]\([^)]*\)/g, "$1").replace(/^#+ /gm, "");
-      const pieces = plain.split("`");
-      made.append(el("p", {}, ...pieces.map((piece, at) => {
-        return el(at % 2 ? "code" : "span", {}, piece.replaceAll("**", ""));
-      })));
+      made.append(el("p", {}, ...prose(plain)));
     }
   });
   return made;
@@ -245,9 +256,7 @@ function cursor(told) {
 export function editor(parent, { name, text, kind, readOnly, ask, file, changed, pointed, stopped }) {
   const extensions = [
     ...(stopped ? breakpoints(stopped) : []),
-    basicSetup,
-    languageOf(kind),
-    marked,
+    common(kind),
     labelled(name),
     EditorState.readOnly.of(Boolean(readOnly)),
     EditorView.updateListener.of((update) => {
@@ -257,7 +266,7 @@ export function editor(parent, { name, text, kind, readOnly, ask, file, changed,
     cursor(pointed),
   ];
   if (file) extensions.push(hovers(ask, file), autocompletion({ override: [proposals(ask, file)] }));
-  return new EditorView({ parent, state: EditorState.create({ doc: text, extensions }) });
+  return shaded(new EditorView({ parent, state: EditorState.create({ doc: text, extensions }) }));
 }
 
 /** A text that is read: `origin(line)` is told beside the pointer, `pointed` gets the line of the cursor, `stopped` the lines with breakpoints. */
@@ -270,16 +279,14 @@ export function reader(parent, { label, kind, origin, pointed, stopped }) {
   });
   const extensions = [
     breakpoints(stopped),
-    basicSetup,
-    languageOf(kind),
-    marked,
+    common(kind),
     fresh,
     tips,
     cursor(pointed),
     labelled(label),
     EditorState.readOnly.of(true),
   ];
-  return new EditorView({ parent, state: EditorState.create({ extensions }) });
+  return shaded(new EditorView({ parent, state: EditorState.create({ extensions }) }));
 }
 
 /** Gives an editor another text; only what differs is changed, so that the cursor stays. */

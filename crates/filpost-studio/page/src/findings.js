@@ -1,4 +1,4 @@
-// All that is wrong or doubtful: of posting, of the texts, of the check against the CL file, of the stock that is cut.
+// All that is wrong or doubtful: of posting, of the texts, of the check against the CL file, and of others who judge.
 import { debounced, signal } from "./dom.js";
 import { kindOf } from "./files.js";
 
@@ -8,8 +8,9 @@ const MOST_CHECKED = 3_000_000;
 const ORDER = { error: 0, warning: 1, advice: 2, info: 2, note: 3 };
 
 export class Findings {
-  constructor(files, posting, cutting, ask) {
-    Object.assign(this, { files, posting, cutting, ask });
+  /** `judges` have findings of their own: the stock that is cut, the audit. */
+  constructor(files, posting, judges, ask) {
+    Object.assign(this, { files, posting, judges, ask });
     this.posted = [];
     this.ofTexts = [];
     this.checked = [];
@@ -20,7 +21,7 @@ export class Findings {
     const later = debounced(300, () => this.judge());
     files.changed.on((name, by) => by !== "save" && kindOf(name) !== "text" && later());
     files.listed.on(later);
-    cutting.changed.on(() => this.changed.tell());
+    for (const judge of judges) judge.changed.on(() => this.changed.tell());
     posting.done.on(() => {
       this.posted = postedFindings(posting.answer);
       this.checked = [];
@@ -85,11 +86,11 @@ export class Findings {
   all() {
     const seen = new Set();
     const once = (finding) => {
-      const key = `${finding.code} ${finding.file} ${finding.line} ${["verify", "stock"].includes(finding.source) || !finding.code ? finding.message : ""}`;
+      const key = `${finding.code} ${finding.file} ${finding.line} ${["verify", "audit", "stock"].includes(finding.source) || !finding.code ? finding.message : ""}`;
       return !seen.has(key) && seen.add(key);
     };
     // Those of the texts come first, as they bring repairs.
-    const all = [...this.ofTexts, ...this.posted, ...this.checked, ...this.cutting.findings()].filter(once);
+    const all = [...this.ofTexts, ...this.posted, ...this.checked, ...this.judges.flatMap((judge) => judge.findings())].filter(once);
     return all.sort((a, b) => (ORDER[a.severity] ?? 2) - (ORDER[b.severity] ?? 2));
   }
 

@@ -1,5 +1,6 @@
 // Colours of FIL, CL, machine.toml and NC texts. What is right or wrong filpost says.
-import { StreamLanguage } from "@codemirror/language";
+import { HighlightStyle, StreamLanguage, syntaxHighlighting } from "@codemirror/language";
+import { tags } from "@lezer/highlight";
 
 const CALLS = /^(POSTF|POSTN|MACRO|TERMAC|CALL|IF|THEN|ELSE|ELSEIF|ENDIF|CASE|ENDCAS|DO|CONTIN|JUMPTO|CIMFIL|SIMFIL|REPEAT|PPRINT|INSERT|RESERV|TEXT|FINI|READ|WRITE|INCLUD|DATA|PRINT|OBTAIN|WHEN)\b/i;
 
@@ -71,3 +72,14 @@ const LANGUAGES = { fil, cl, machine, toml: machine, nc };
 
 /** The colours of a kind of text; none for a plain one. */
 export const languageOf = (kind) => LANGUAGES[kind] ?? [];
+
+/** The colours of the kinds of words, which the style sheet has for light and dark. */
+export const wordColours = syntaxHighlighting(HighlightStyle.define([
+  { tag: tags.comment, color: "var(--code-comment)" },
+  { tag: tags.string, color: "var(--code-string)" },
+  { tag: tags.keyword, color: "var(--code-keyword)" },
+  { tag: tags.number, color: "var(--code-number)" },
+  { tag: tags.propertyName, color: "var(--code-name)" },
+  { tag: tags.function(tags.variableName), color: "var(--code-name)" },
+  { tag: tags.meta, color: "var(--quiet)" },
+]));

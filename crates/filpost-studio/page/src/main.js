@@ -2,6 +2,7 @@
 import { zipSync, strToU8 } from "fflate";
 import { moduleBackend } from "./backends/module.js";
 import { serverBackend } from "./backends/server.js";
+import { Auditing } from "./auditing.js";
 import { Cutting } from "./cutting.js";
 import { Debugging } from "./debugging.js";
 import { confirm, tell } from "./dialogs.js";
@@ -10,6 +11,7 @@ import { Files, isCl } from "./files.js";
 import { Findings } from "./findings.js";
 import { Cases } from "./cases.js";
 import { showView, startLayout, startViews } from "./layout.js";
+import { startAudit } from "./panes/audit.js";
 import { startCasebook } from "./panes/casebook.js";
 import { Compare } from "./panes/compare.js";
 import { startDebugger } from "./panes/debugger.js";
@@ -22,16 +24,20 @@ import { startStock } from "./panes/stock.js";
 import { startTree } from "./panes/tree.js";
 import { MACHINE, Posting } from "./posting.js";
 import { pack, unpack } from "./share.js";
+import { startTheme } from "./theme.js";
 import { chooseFiles, readAll, startPost } from "./start.js";
+
+startTheme();
 
 /** What the playground has beside the page: the module, the examples, the pages of the post words. */
 const parts = globalThis.filpost;
 const backend = parts?.bytes ? moduleBackend(parts) : serverBackend((is) => (by("lost").hidden = !is));
 const { ask } = backend;
 const files = new Files(backend);
-const posting = new Posting(files, ask);
+const posting = new Posting(files, backend);
 const cutting = new Cutting(files, posting, ask);
-const findings = new Findings(files, posting, cutting, ask);
+const auditing = new Auditing(posting, ask);
+const findings = new Findings(files, posting, [cutting, auditing], ask);
 const debugging = new Debugging(files, posting, ask);
 const editing = new Editing(files, posting, debugging, ask);
 const program = new Program(files, posting, debugging, { open });
@@ -114,9 +120,17 @@ function showParts() {
 function showStatus() {
   const { answer, part, isRunning } = posting;
   by("post-now").hidden = !posting.isLarge();
+  by("stop").hidden = by("progress").hidden = !isRunning;
+  // A bar without a value moves to and fro.
+  if (posting.share === null) by("progress").removeAttribute("value");
+  else by("progress").value = posting.share;
   const box = by("status");
   box.className = "";
   if (isRunning) box.textContent = "Posting…";
+  else if (posting.isStopped) {
+    box.textContent = "Stopped: the program is the one from before";
+    box.className = "warning";
+  }
   else if (!files.has(MACHINE)) box.textContent = "No post yet";
   else if (!part) box.textContent = "No CL file yet: add one";
   else if (answer?.nc !== undefined) {
@@ -137,6 +151,7 @@ function showDirty() {
 }
 
 posting.done.on(showStatus);
+posting.moved.on(showStatus);
 files.changed.on((name) => {
   showDirty();
   if (posting.reads(name) && !posting.isLarge()) by("status").className = "waiting";
@@ -159,6 +174,7 @@ path.picked.on((line) => program.goTo(line));
 
 by("part").addEventListener("change", (event) => choosePart(event.target.value));
 by("post-now").addEventListener("click", () => posting.run());
+by("stop").addEventListener("click", () => posting.stop());
 by("save").addEventListener("click", save);
 by("start").addEventListener("click", begin);
 by("add").addEventListener("click", async () => take(await chooseFiles()));
@@ -180,7 +196,8 @@ window.addEventListener("beforeunload", (event) => {
 async function begin() {
   if (!(await startPost({ files, ask, examples: parts?.examples, takeExample }))) return;
   showParts();
-  await posting.run();
+  // A field that is typed in is one of this machine.
+  await Promise.all([posting.run(), form.load()]);
   open(FORM);
 }
 
@@ -233,6 +250,7 @@ const judgeTabs = tabs(by("judge-tabs"), (id) => {
   if (id === "tab-path") path.open();
 });
 startJudging(findings, { open, openNc });
+startAudit(auditing, files, posting, { open, openNc, showLines });
 startStock(cutting, files, posting, { open, showPath: () => judgeTabs.choose("tab-path") });
 startDebugger(debugging, { open, openNc, stand });
 startCasebook(cases, files, posting, {

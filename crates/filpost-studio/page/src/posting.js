@@ -8,12 +8,15 @@ const LARGE = 8_000_000;
 /** Pause after the last key, milliseconds. */
 const PAUSE = 180;
 
+/** A run that takes longer is shown as one, milliseconds. */
+const LONG = 400;
+
 export const MACHINE = "machine.toml";
 
 export class Posting {
-  constructor(files, ask) {
+  constructor(files, backend) {
     this.files = files;
-    this.ask = ask;
+    this.watched = backend.watched;
     /** Name of the CL file. */
     this.part = null;
     /** What the case of the part says of posting: `fil`, and keys of a request; null where it has no case. */
@@ -23,8 +26,14 @@ export class Posting {
     this.answer = null;
     this.lines = [];
     this.isRunning = false;
+    /** How much of the CL file the run has read, 0 to 1; null where that is not known. */
+    this.share = null;
+    /** The last run was stopped: the program is still that of the one before. */
+    this.isStopped = false;
     this.asked = 0;
     this.done = signal();
+    /** A run takes long, has come farther, or was stopped. */
+    this.moved = signal();
     this.later = debounced(PAUSE, () => this.run());
     files.changed.on((name, by) => {
       if (by !== "save" && this.reads(name)) this.isLarge() ? this.done.tell() : this.later();
@@ -76,16 +85,31 @@ export class Posting {
     const request = this.request();
     if (number !== this.asked) return;
     if (!request) return this.take(null, 0);
-    this.isRunning = true;
+    this.work?.supersede();
     const begun = performance.now();
-    let answer;
-    try {
-      answer = await this.ask(request);
-    } catch (error) {
-      answer = { failure: error.message };
-    }
+    const work = this.watched(request, (share) => this.tell(number, share), this.isLarge());
+    Object.assign(this, { work, isRunning: true, isStopped: false, share: null });
+    setTimeout(() => this.tell(number, this.share), LONG);
+    const answer = await work.answer.catch((error) => ({ failure: error.message }));
     // A later run has been asked for: its answer is the one that counts.
-    if (number === this.asked) this.take(answer, performance.now() - begun);
+    if (number !== this.asked) return;
+    this.work = null;
+    if (!this.isStopped) return this.take(answer, performance.now() - begun);
+    this.isRunning = false;
+    this.moved.tell();
+  }
+
+  tell(number, share) {
+    if (number !== this.asked || !this.isRunning) return;
+    this.share = share;
+    this.moved.tell();
+  }
+
+  /** Stops the run. */
+  stop() {
+    if (!this.work) return;
+    this.isStopped = true;
+    this.work.stop();
   }
 
   take(answer, time) {

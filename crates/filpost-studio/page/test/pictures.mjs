@@ -40,7 +40,7 @@ await page.locator("#nc .cm-content", { hasText: "G3 X50. Y10." }).waitFor();
 await page.locator("#open-tabs [role=tab]", { hasText: "Machine" }).click();
 await page.locator('[id="set-seqno.increment"]').fill("5");
 await page.locator('[id="set-seqno.increment"]').press("Enter");
-await page.locator("#nc .cm-content", { hasText: "N15 " }).waitFor();
+await page.locator("#nc .cm-content", { hasText: /\bN15\b/ }).waitFor();
 await page.locator("#cause", { hasText: "The last change" }).waitFor();
 await take("studio-machine");
 

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
+import { COMMON, SECTIONS } from "../src/panes/settings.js";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
@@ -103,7 +104,7 @@ export const tests = {
     // Blocks numbered by five, a number of the program, none of the name, flood by M7, end by M2.
     await setting(page, "seqno.increment").fill("5");
     await setting(page, "seqno.increment").press("Enter");
-    await shows(page, "N15 ");
+    await shows(page, /\bN15\b/);
     await page.locator("#cause", { hasText: "The last change" }).waitFor();
     await picture("form");
     await setting(page, "program.number").fill("4711");
@@ -128,7 +129,7 @@ export const tests = {
     }
     // What is set here is marked, and can be taken back.
     await page.locator(".setting.own", { hasText: "seqno.increment" }).getByRole("button", { name: "Reset" }).click();
-    await shows(page, "N10 ");
+    await page.locator("#nc .cm-content", { hasText: /\bN15\b/ }).waitFor({ state: "detached" });
     await page.locator("#open-tabs [aria-selected=true]", { hasText: "Machine" }).waitFor();
     // A value that the setting can't have is said, and nothing changes.
     await setting(page, "program.number").fill("many");
@@ -147,6 +148,23 @@ export const tests = {
     await row.locator(".notes", { hasText: /\d lines? \(/ }).waitFor();
     await page.locator("#nc .marked", { hasText: "M9" }).first().waitFor();
     await picture("touches");
+    await close();
+  },
+
+  async "the form has its sections in order, and each that shops change"(studio) {
+    const { page, close } = await studio();
+    await begin(page, "haas-mill");
+    await page.getByRole("combobox", { name: "Which settings" }).selectOption("all");
+    await page.locator(".setting.idle").first().waitFor();
+    const rows = await page.evaluate(() => [...document.querySelectorAll(".setting [id^=set-]")].map(({ id }) => id.slice(4)));
+    assert.deepEqual([...COMMON].filter((key) => !rows.includes(key)), [], "keys that are no settings");
+    const titles = await page.locator(".settings h3").allInnerTexts();
+    const known = ["Options of the post", ...SECTIONS.values(), "Blocks of your own"];
+    assert.deepEqual(titles, known.filter((title) => titles.includes(title)), "all sections are known, and in order");
+    assert.equal(titles.length, known.length, "each section has settings");
+    // What acts of those that shops change is there at once.
+    await page.getByRole("combobox", { name: "Which settings" }).selectOption("common");
+    for (const key of ["program.number", "seqno.increment", "limits.check"]) await setting(page, key).waitFor();
     await close();
   },
 
@@ -187,7 +205,7 @@ export const tests = {
     await page.getByRole("tab", { name: "Machine", exact: true }).click();
     await setting(page, "seqno.increment").fill("5");
     await setting(page, "seqno.increment").press("Enter");
-    await shows(page, "N15 ");
+    await shows(page, /\bN15\b/);
     await page.click("#run-cases");
     await page.locator("#cases-said", { hasText: "0 cases passed, 2 failed" }).waitFor();
     await page.locator("#cases .failed", { hasText: "is expected" }).first().getByRole("button", { name: "Compare" }).click();
@@ -221,6 +239,30 @@ export const tests = {
     await typeAtTop(page, "CIMFIL/ON,COOLNT\n  POSTN/OUT,G,1,X,99,F,500\n  DMY = POSTF(13)\nCIMFIL/OFF\n");
     await shows(page, "X99.");
     await page.locator("#findings li", { hasText: "verify" }).first().waitFor({ timeout: 15_000 });
+    await close();
+  },
+
+  async "the audit lists what a script changed, with the ways there"(studio) {
+    const { page, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    await page.click("#tab-audit");
+    const said = page.locator("#audit-said");
+    await said.filter({ hasText: "motions of the CL file are made by the post as it asks" }).waitFor();
+    await openFile(page, "post.fil");
+    await typeAtTop(page, "CIMFIL/ON,SPINDL\n  POSTN/OUT,S,1234,M,3\nCIMFIL/OFF\n");
+    await shows(page, "S1234");
+    const row = page.locator("#audit-changes li", { hasText: "post.fil:2, section SPINDL" }).first();
+    await row.waitFor();
+    assert.match(await row.innerText(), /S 2000 -> 1234/);
+    await picture("audit");
+    assert.deepEqual(await faults(page), [], "the audit");
+    await row.getByRole("button", { name: /^CL line/ }).first().click();
+    await page.locator("#open-tabs [aria-selected=true]", { hasText: "part.ncl" }).waitFor();
+    await row.locator(".finding").click();
+    await page.locator("#open-tabs [aria-selected=true]", { hasText: "post.fil" }).waitFor();
+    await page.locator("#nc .marked", { hasText: "S1234" }).first().waitFor();
+    await row.getByRole("button", { name: /^NC line/ }).first().click();
+    await page.locator("#cause", { hasText: "POSTN/OUT,S,1234" }).waitFor();
     await close();
   },
 
@@ -323,7 +365,7 @@ export const tests = {
       await setting(page, key).press("Enter");
     };
     for (const [key, value, block] of [
-      ["program.number", "4711", "O4711"], ["seqno.increment", "5", "N15 "], ["coolant.default_code", "7", "M7"],
+      ["program.number", "4711", "O4711"], ["seqno.increment", "5", /\bN15\b/], ["coolant.default_code", "7", "M7"],
       ["coolant.off_code", "109", "M109"], ["spindle.stop_code", "105", "M105"],
     ]) {
       await wish(key, value);
@@ -383,6 +425,53 @@ export const tests = {
     await close();
   },
 
+  async "panes are moved to other sides, and are there again"(studio, isPlayground) {
+    const { page, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    const box = (id) => page.locator(`#${id}`).boundingBox();
+    // With the keys: the program below the editors, the findings at the right of all.
+    await page.locator("#move-program").focus();
+    await page.keyboard.press("ArrowDown");
+    await page.locator("#move-judge").focus();
+    await page.keyboard.press("ArrowRight");
+    const below = async () => (await box("program")).y > (await box("edit")).y + 100;
+    const beside = async () => (await box("judge")).x >= (await box("program")).x + (await box("program")).width;
+    assert.ok(await below() && await beside());
+    // With the pointer: the files to the right side.
+    const grip = await box("move-files");
+    await page.mouse.move(grip.x + grip.width / 2, grip.y + grip.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(1240, 420, { steps: 4 });
+    await page.locator('#drop[data-side="right"]').waitFor();
+    await picture("pane-moves");
+    await page.mouse.up();
+    const files = await box("files");
+    assert.ok(files.x > (await box("judge")).x);
+    // Their edge is at the other side now, and the keys move it as the eye expects.
+    await page.locator("#sash-files").focus();
+    await page.keyboard.press("ArrowLeft");
+    assert.equal(Math.round((await box("files")).width - files.width), 20);
+    await page.locator("#sash-program").focus();
+    const height = (await box("program")).height;
+    await page.keyboard.press("ArrowUp");
+    assert.equal(Math.round((await box("program")).height - height), 20);
+    assert.deepEqual(await faults(page), [], "the panes elsewhere");
+    // The studio has another port the next time, and nothing that is kept for one port.
+    if (!isPlayground) await page.evaluate(() => localStorage.clear());
+    page.on("dialog", (dialog) => dialog.accept());
+    await page.reload();
+    await page.locator("#files").waitFor();
+    assert.ok(await below() && await beside(), "after a reload");
+    assert.equal(Math.round((await box("files")).width - files.width), 20);
+    if (!isPlayground) await page.locator("#dialog .close").click();
+    for (const name of ["program", "judge", "files"]) {
+      await page.locator(`#move-${name}`).focus();
+      await page.keyboard.press("Home");
+    }
+    assert.ok((await box("files")).x < 10 && (await box("program")).y < (await box("judge")).y);
+    await close();
+  },
+
   async "on a phone one pane is shown at a time"(studio) {
     const { page, picture, close } = await studio({ viewport: { width: 390, height: 780 } });
     await begin(page, "haas-mill");
@@ -394,6 +483,31 @@ export const tests = {
     const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
     assert.equal(wide, false, "nothing is wider than the screen");
     assert.deepEqual(await faults(page), []);
+    await close();
+  },
+
+  async "a large part is posted on demand, with a way to stop"(studio, isPlayground) {
+    const { page, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    const before = await nc(page);
+    // 9 MB of CL text in the part that is shown.
+    const lines = Array.from({ length: 330_000 }, (_, at) => `GOTO / ${(at % 977) / 10}, ${(at % 1013) / 10}, -1.0000`);
+    const text = `UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nFEDRAT / 300, MMPM\n${lines.join("\n")}\nFINI\n`;
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("#add")]);
+    await chooser.setFiles({ name: "large.ncl", mimeType: "text/plain", buffer: Buffer.from(text) });
+    await page.locator("#stop").click();
+    await said(page, "Stopped");
+    assert.equal(await nc(page), before);
+    await page.click("#post-now");
+    await page.locator("#progress:visible").waitFor();
+    if (!isPlayground) await page.waitForFunction(() => document.querySelector("#progress").value > 0, null, { timeout: 60_000 });
+    await picture("large");
+    await page.locator("#status", { hasText: "of 330,005 records" }).waitFor({ timeout: 120_000 });
+    await page.locator("#stop").waitFor({ state: "hidden" });
+    // A change does not post it by itself.
+    await typeAtTop(page, "$$ a change\n");
+    await page.waitForTimeout(600);
+    await page.locator("#stop").waitFor({ state: "hidden" });
     await close();
   },
 

@@ -5,7 +5,7 @@ import workerText from "worker:./worker.js";
 const PATIENCE = 20_000;
 
 /** What the second module answers; the first has all else. */
-const JUDGED = new Set(["plot", "columns", "verify", "compare", "motions", "simulate", "debug", "cover"]);
+const JUDGED = new Set(["plot", "columns", "verify", "audit", "compare", "motions", "simulate", "debug", "cover"]);
 
 /** One module in a worker: requests, and a new worker where one takes too long. */
 class Asked {
@@ -34,20 +34,46 @@ class Asked {
     else waiting.resolve(answer);
   }
 
-  ask(request) {
+  /** Asks; a patient request waits until it is answered, or somebody stops it. */
+  ask(request, isPatient = false) {
     const number = ++this.number;
     return new Promise((resolve, reject) => {
-      const timer = setTimeout(() => this.giveUp(), PATIENCE);
-      this.waiting.set(number, { resolve, reject, timer });
-      this.worker.postMessage({ number, request });
+      this.waiting.set(number, { request, isPatient, resolve, reject });
+      this.send(number);
     });
   }
 
-  giveUp() {
+  send(number) {
+    this.time(number);
+    this.worker.postMessage({ number, request: this.waiting.get(number).request });
+  }
+
+  /** Gives up what takes too long. Requests are answered one after the other: the first is it, unless it may take its time. */
+  time(number) {
+    const waiting = this.waiting.get(number);
+    if (waiting.isPatient) return;
+    waiting.timer = setTimeout(() => {
+      const [first, { isPatient }] = this.waiting.entries().next().value;
+      if (isPatient) this.time(number);
+      else this.giveUp(first, `it took longer than ${PATIENCE / 1000} s and was stopped`);
+    }, PATIENCE);
+  }
+
+  /** Ends a request; a new worker answers the others. */
+  giveUp(number, failure) {
     this.worker.terminate();
-    const failure = `it took longer than ${PATIENCE / 1000} s and was stopped`;
-    for (const number of [...this.waiting.keys()]) this.settle({ number, failure });
+    this.settle({ number, failure });
     this.start();
+    for (const [other, { timer }] of this.waiting) {
+      clearTimeout(timer);
+      this.send(other);
+    }
+  }
+
+  /** Asks so that it can be stopped. */
+  askStoppable(request, isPatient) {
+    const answer = this.ask(request, isPatient), { number } = this;
+    return { answer, stop: () => this.waiting.has(number) && this.giveUp(number, "it was stopped") };
   }
 }
 
@@ -80,6 +106,8 @@ export function moduleBackend(parts) {
   return {
     keeps: false,
     ask,
+    /** The module can't tell how far it has come; it is stopped with its worker, and so only where somebody asks for that. */
+    watched: (request, told, isPatient) => ({ ...first.askStoppable(request, isPatient), supersede: () => {} }),
     list: async () => ({
       folder: "playground", all: true,
       files: [...kept].map(([name, { text, stamp }]) => ({ name, size: text.length, stamp })),

@@ -14,6 +14,30 @@ async function ask(request) {
   return answer;
 }
 
+/** Pause between two looks at a request that is being answered, milliseconds. */
+const LOOK = 300;
+
+/** A request that tells `told` how much of it is done, 0 to 1, and can be stopped. */
+function watched(request, told) {
+  const ticket = crypto.randomUUID();
+  let isOver = false, isStopped = false;
+  const answer = ask({ ...request, ticket }).finally(() => (isOver = true));
+  const look = async () => {
+    if (isOver) return;
+    const { share } = await ask({ do: isStopped ? "stop" : "watch", ticket }).catch(() => ({}));
+    if (isOver) return;
+    if (typeof share === "number") told(share);
+    setTimeout(look, LOOK);
+  };
+  setTimeout(look, LOOK);
+  const stop = () => {
+    isStopped = true;
+    // The request may not have come there yet: each look asks again.
+    if (!isOver) ask({ do: "stop", ticket }).catch(() => null);
+  };
+  return { answer, stop, supersede: stop };
+}
+
 /** The back end of the page; `lost` is told when the server has ended. */
 export function serverBackend(lost) {
   // The server ends when this connection does.
@@ -23,6 +47,7 @@ export function serverBackend(lost) {
   return {
     keeps: true,
     ask,
+    watched,
     list: () => ask({ do: "files" }),
     read: (name) => ask({ do: "read", name }),
     write: (name, text, { stamp, encoding }) => ask({ do: "write", name, text, stamp, encoding }),

@@ -2,20 +2,7 @@
 import { by, counted, debounced, el } from "../dom.js";
 import { MACHINE } from "../posting.js";
 import { changedLines } from "./program.js";
-
-/** Titles of the groups, by the first part of a key; those that are not named are titled by their key. */
-const TITLES = {
-  program: "Program", units: "Units", mode: "Modes at the start", tape: "Text of the program", seqno: "Block numbers",
-  input: "Input", output: "Output", scale: "Scale", home: "Home and retract", limits: "Travel", motion: "Motion",
-  rapid: "Rapid traverse", linear: "Straight moves", circle: "Arcs", cycle: "Cycles", feed: "Feed", dwell: "Dwell",
-  cutcom: "Radius compensation", tool: "Tools", turret: "Turret", fixture: "Work offsets", spindle: "Spindle",
-  coolant: "Coolant", override: "Override", message: "Messages", rotary: "Rotary axes", repos: "Reposition",
-  lathe: "Lathe", thread: "Threads", mill_turn: "Mill-turn", list: "Listing", package: "Package", control: "Control",
-  name: "Name",
-};
-
-/** Order of the first groups; the others follow as the table has them. */
-const FIRST = ["program", "seqno", "tape", "units", "mode", "rapid", "feed", "spindle", "coolant", "tool", "fixture", "home", "circle", "cycle", "cutcom", "limits"];
+import { COMMON, SECTIONS } from "./settings.js";
 
 /** What the list shows. */
 const VIEWS = [
@@ -25,14 +12,6 @@ const VIEWS = [
   ["acting", "All that act"],
   ["all", "All, also those without effect"],
 ];
-
-/** Keys that `filpost new` proposes, and a few that newcomers look for. */
-const COMMON = new Set([
-  "program.number", "program.name_comment", "program.end_code", "program.safe_start", "program.tool_list", "seqno.increment", "seqno.first",
-  "seqno.off_at_start", "seqno.on_text", "tape.line_end", "tape.decimal_rule", "units.mode", "rapid.rate", "rapid.split", "feed.upm_max", "spindle.max",
-  "tool.change_time", "tool.change_stop", "tool.preselect_first", "fixture.first", "home.frame", "coolant.mist_code", "coolant.flood_code",
-  "limits.check", "limits.x_min", "limits.x_max", "limits.y_min", "limits.y_max", "limits.z_min", "limits.z_max", "circle.radius_mode", "message.waits",
-]);
 
 /** Most other values that are tried. */
 const MOST_TRIED = 4;
@@ -57,6 +36,8 @@ export class Form {
       this.list,
     );
     this.made = null;
+    /** Why the last value was not taken, in a sentence; empty where it was. */
+    this.refused = "";
     /** The setting whose lines were looked for last, and what was found. */
     this.touched = {};
     const later = debounced(200, () => this.load());
@@ -71,19 +52,27 @@ export class Form {
   /** Reads the settings anew. */
   async load() {
     const text = this.files.text(MACHINE);
-    if (text === null) return;
+    if (text === null) {
+      // The settings of a machine that is gone are not to be changed.
+      this.made = null;
+      this.list.replaceChildren();
+      return;
+    }
     this.ready ??= await this.ask({ do: "ready" });
     const answer = await this.ask({ do: "form", text, fil: this.posting.scripts().fil });
     if (text !== this.files.text(MACHINE)) return;
     const wrong = answer.errors?.[0];
-    this.problem.hidden = !wrong;
+    this.say(wrong ? `The text of ${MACHINE} can't be read: ${wrong.message}` : this.refused);
     this.box.classList.toggle("stale", Boolean(wrong));
-    if (wrong) {
-      this.problem.textContent = `The text of ${MACHINE} can't be read: ${wrong.message}`;
-      return;
-    }
+    if (wrong) return;
     this.made = answer;
     this.show();
+  }
+
+  /** Says what is wrong; an empty text for nothing. */
+  say(text) {
+    this.problem.hidden = !text;
+    this.problem.textContent = text;
   }
 
   show() {
@@ -91,7 +80,8 @@ export class Form {
     // What somebody is typing is not taken away: the list is made anew when that is done.
     const typing = document.activeElement;
     if (this.list.contains(typing) && typing.dataset.shown !== undefined && typing.dataset.shown !== typing.value) {
-      typing.addEventListener("blur", () => this.show(), { once: true });
+      // Not within the event: it also comes while an element is taken out.
+      typing.onblur = () => setTimeout(() => this.show());
       return;
     }
     const { base, settings, options, blocks } = this.made;
@@ -103,18 +93,18 @@ export class Form {
     this.base.value = base ?? "";
     const groups = new Map();
     if (options.length) groups.set("options", []);
-    for (const name of FIRST) groups.set(name, []);
+    for (const name of SECTIONS.keys()) groups.set(name, []);
     const add = (group, row) => groups.has(group) ? groups.get(group).push(row) : groups.set(group, [row]);
     for (const option of options.filter((each) => this.wantsOption(each))) add("options", this.optionRow(option));
     for (const setting of settings.filter((each) => this.wants(each))) add(setting.key.split(".")[0], this.settingRow(setting));
     for (const list of blocks.filter((each) => this.wantsBlocks(each))) add("blocks", this.blocksRow(list));
-    const focused = document.activeElement?.id;
+    const keepsFocus = focusIn(this.list);
     this.list.replaceChildren(...[...groups].filter(([, rows]) => rows.length).map(([group, rows]) => {
-      const title = { options: "Options of the post", blocks: "Blocks of your own" }[group] ?? TITLES[group] ?? group;
+      const title = { options: "Options of the post", blocks: "Blocks of your own" }[group] ?? SECTIONS.get(group) ?? group;
       return el("section", {}, el("h3", {}, title), ...rows);
     }));
     if (!this.list.childElementCount) this.list.append(el("p", { class: "quiet" }, "No setting is like that."));
-    if (focused) by(focused)?.focus();
+    keepsFocus();
   }
 
   /** True for a text that has all words that are looked for. */
@@ -125,7 +115,7 @@ export class Form {
 
   wants(setting) {
     const { key, meaning, own, acts, value, choices } = setting;
-    if (!this.matches(`${key} ${meaning} ${choices.map(([, text]) => text).join(" ")} ${TITLES[key.split(".")[0]] ?? ""}`)) return false;
+    if (!this.matches(`${key} ${meaning} ${choices.map(([, text]) => text).join(" ")} ${SECTIONS.get(key.split(".")[0]) ?? ""}`)) return false;
     const isOwn = own !== null;
     switch (this.view.value) {
       case "own": return isOwn;
@@ -276,13 +266,21 @@ export class Form {
   async set(key, value) {
     const text = this.files.text(MACHINE);
     const answer = await this.ask({ do: "set", text, key, value: value ?? undefined });
-    if (answer.text === undefined) {
-      this.problem.hidden = false;
-      this.problem.textContent = `${key} is not set: ${answer.why ?? answer.misuse}`;
-      return;
-    }
-    this.files.set(MACHINE, answer.text);
+    this.refused = answer.text === undefined ? `${key} is not set: ${answer.why ?? answer.misuse}` : "";
+    this.say(this.refused);
+    if (!this.refused) this.files.set(MACHINE, answer.text);
   }
+}
+
+/** Gives the focus back to the field of the same name in a list that is made anew, with what was chosen in it. */
+function focusIn(list) {
+  const { id, selectionStart: from, selectionEnd: to } = document.activeElement;
+  if (!id || !list.contains(document.activeElement)) return () => {};
+  return () => {
+    const field = by(id);
+    field?.focus();
+    if (typeof from === "number") field?.setSelectionRange?.(from, to);
+  };
 }
 
 const UNITS = { code: "number of a G or M code", mm: "mm", deg: "degrees", rpm: "turns/min", s: "seconds", "mm/min": "mm/min", letter: "a letter", char: "a character", count: "a whole number" };
