@@ -141,6 +141,34 @@ pub fn picture(first: &[Cut], second: &[Cut]) -> Picture {
     picture
 }
 
+/// The cuts of both programs of a grid on the unrolled cylinder, and nothing else.
+pub fn grid(first: &[Cut], second: &[Cut]) -> Picture {
+    const LARGER: f64 = 5.0;
+    let mut picture = Picture::default();
+    let place = |round: f64, along: f64| [LARGER * round, LARGER * along];
+    let mut field = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+    for (cuts, pen) in [(second, SECOND), (first, FIRST)] {
+        for cut in cuts {
+            let ends = [0.0, 0.5, 1.0].map(|part| {
+                let spot = cut.at(part);
+                let [round, along] = [spot.radius * spot.angle.to_radians(), spot.along];
+                let [left, low, right, high] = field;
+                field = [left.min(round), low.min(along), right.max(round), high.max(along)];
+                place(round, along)
+            });
+            picture.line(&ends, pen);
+        }
+    }
+    let [left, low, right, high] = field;
+    let corners = [[left, low], [right, low], [right, high], [left, high], [left, low]];
+    picture.line(&corners.map(|[round, along]| place(round, along)), AXIS);
+    let middle = (left + right) / 2.0;
+    picture.text(place(middle, high + 4.0), "round the cylinder to the right, along it upward");
+    picture
+        .text(place(middle, low - 9.0), "blue: first program, EMBOSL; red: second program, EMBOSR");
+    picture
+}
+
 fn along_the_axis(picture: &mut Picture, radius: f64) {
     picture.circle([0.0, 0.0], radius, THIN);
     picture.line(&[[-130.0, 0.0], [130.0, 0.0]], AXIS);
@@ -157,7 +185,7 @@ fn along_the_axis(picture: &mut Picture, radius: f64) {
         picture.text([center, DISC + 4.0], name);
         picture.text([center, -DISC - 10.0], if side > 0.0 { "+X" } else { "-X" });
     }
-    picture.text([0.0, 0.0], "C");
+    picture.text([0.0, -18.0], "C");
     picture.text([0.0, 118.0], "along the axis of the cylinder");
 }
 
@@ -182,7 +210,7 @@ fn from_x(picture: &mut Picture, middle: [f64; 2], radius: f64, cuts: &[Cut]) {
         picture.line(&ends.map(|at| place(at.y, at.z)), FIRST);
     }
     picture.line(&[place(y - DISC, z), place(y + DISC, z)], Pen::full("black", 2.5));
-    picture.text(place(y, z + 3.0), "disc");
+    picture.text(place(y - DISC - 18.0, z - 3.5), "disc");
     picture.text(place(0.0, 118.0), "from +X: Y right, Z up");
 }
 

@@ -4,7 +4,7 @@
 use std::fs;
 
 use filpost::{Error, Program};
-use filpost_simulation::embos::{Cut, Spot, cuts, picture};
+use filpost_simulation::embos::{self, Cut, Spot, cuts, picture};
 use filpost_simulation::runout::Random;
 use filpost_tests::posting::with_script;
 use filpost_tests::{examples, root};
@@ -174,6 +174,8 @@ fn grid(random: &mut Random, side: f64, decimals: usize) -> Grid {
 fn random_grids_lie_in_the_plane_of_the_disc() {
     let mut random = Random(filpost_simulation::seed(5));
     let grids = filpost_simulation::jobs("FILPOST_EMBOS_GRIDS", GRIDS);
+    let [mut first, mut cuts, mut refused] = [0; 3];
+    let mut furthest: f64 = 0.0;
     for index in 0..grids {
         let side = if index % 2 == 0 { 1.0 } else { -1.0 };
         let decimals = 3 + index / 2 % 8;
@@ -183,6 +185,10 @@ fn random_grids_lie_in_the_plane_of_the_disc() {
         let found = judge_digits(&cl, &nc, radius, digit, lean)
             .unwrap_or_else(|fault| panic!("{index}: {fault}\n{cl}{nc}"));
         assert!(found.len() >= 6, "{index}: {nc}");
+        first += usize::from(side > 0.0);
+        cuts += found.len();
+        let out = found.iter().flat_map(|cut| [0.1, 0.5, 0.9].map(|part| cut.out_of_disc(part)));
+        furthest = out.fold(furthest, f64::max);
         // Along the cylinder and round it both sides are alike.
         if (3.0..=87.0).contains(&lean) {
             let turned = cl
@@ -190,9 +196,15 @@ fn random_grids_lie_in_the_plane_of_the_disc() {
                 .replace("EMBOSR", "EMBOSL")
                 .replace("EMBOSX", "EMBOSR");
             assert!(post(&script(), &turned).is_err(), "{index}: the other side jams the disc");
+            refused += 1;
         }
     }
-    println!("grids of grooves: {grids} posted, each cut lies in the plane of the disc");
+    let second = grids - first;
+    let row = format!("| {grids} | {first} | {second} | {cuts} | {furthest:.2} | {refused} |\n");
+    println!("{row}");
+    if [GRIDS, 500].contains(&grids) && !filpost_simulation::is_seeded() {
+        assert!(text("docs/papers/embos.md").contains(&row), "{row}");
+    }
 }
 
 /// Grooves on a random cone, every tool axis square to its axis, and its least radius.
@@ -319,4 +331,17 @@ fn the_page_shows_the_program_and_the_picture() {
     assert!(shown.iter().any(|block| block.words == ["nc"] && block.text == second().1));
     let [one, other] = [first(), second()].map(|(cl, nc)| judge(&cl, &nc, 81.0).expect("right"));
     picture(&one, &other).check(&root().join("docs/papers/embos.svg"));
+}
+
+/// Both programs of the grid of the corpus: the cuts of each lie in the disc, and the picture shows
+/// all of them.
+#[test]
+fn the_picture_shows_the_whole_grid() {
+    let [first, second] = ["first", "second"].map(|group| {
+        let folder = format!("corpus/papers/embos-grid-{group}");
+        let [cl, nc] = ["grooves.ncl", "grid.nc"].map(|name| text(&format!("{folder}/{name}")));
+        judge(&cl, &nc, 81.0).expect("right")
+    });
+    assert!(first.len() >= 50 && first.len() == second.len());
+    embos::grid(&first, &second).check(&root().join("docs/papers/embos-unrolled.svg"));
 }

@@ -96,7 +96,7 @@ impl Chart {
         for (value, name) in marks {
             let [x, y] = self.place(0.0, *value);
             picture.line(&[[x - 0.5, y], [x, y]], GROUND);
-            picture.text([x - 2.4, y - 0.4], name);
+            picture.text([x - 3.0, y - 0.4], name);
         }
     }
 }
@@ -207,7 +207,8 @@ fn the_picture_shows_profile_angle_and_feed() {
         }
     }
     for (at, name) in [
-        (angles.place(56.0, 22.0), "floor: below the dashes"),
+        (angles.place(58.0, 40.0), "floor: below"),
+        (angles.place(58.0, 27.0), "the dashes"),
         (feeds.place(56.0, constant - 0.45), "dashes: constant, F6"),
         (feeds.place(total / 2.0, -0.45), "along the pass, 72 mm"),
     ] {

@@ -51,7 +51,7 @@ fn records_the_pass_needs() {
     both_refuse("FEDCTL / OFF\n", "", "FEDCTL/ON HAS NO FEDCTL/OFF", "FINI");
     let inches = "FEDCTL counts in mm, this CL file in inches";
     both_refuse("UNITS / MM", "UNITS / INCHES", inches, "FEDCTL");
-    let item = "FEDCTL: item 4 is no part of this record";
+    let item = "FEDCTL: item 4 after the / is misspelt, or one too many";
     both_refuse(ON, "FEDCTL / ON, RADIUS, 5, STOK, 0.25", item, "FEDCTL");
     let twice = "FEDCTL: RADIUS,R is there twice";
     both_refuse(ON, "FEDCTL / ON, RADIUS, 5, STOCK, 0.25, RADIUS, 6", twice, "FEDCTL");

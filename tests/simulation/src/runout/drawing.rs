@@ -40,7 +40,8 @@ fn from_above(picture: &mut Picture, middle: [f64; 2], number: usize, section: &
     for (radius, c, name) in [(RADIUS - eccentric, cmin, "MIN"), (RADIUS + eccentric, cmax, "MAX")]
     {
         picture.circle(at(radius, c), 2.0, PROBE);
-        let [x, y] = at(radius + 12.0, c);
+        // Outside of the dashed circle too.
+        let [x, y] = at(radius.max(RADIUS) + 14.0, c);
         picture.text([x, y - 2.0], name);
     }
     let label = |picture: &mut Picture, line: f64, text: String| {
@@ -90,10 +91,13 @@ const HALF: f64 = 40.0;
 /// (degrees) and deviation (mm).
 pub fn over_c(before: &[[f64; 2]], after: &[[f64; 2]], noisy: &[[f64; 2]]) -> Picture {
     let mut picture = Picture::default();
-    strip(&mut picture, 0.0, "+0.1 mm", "-0.1 mm");
+    strip(&mut picture, 0.0, "+0.1", "-0.1");
     curve(&mut picture, before, 0.0, 0.1, BEFORE);
     curve(&mut picture, after, 0.0, 0.1, AFTER);
-    picture.text([FULL / 2.0, HALF + 12.0], "red: without compensation; green: with it");
+    picture.text(
+        [FULL / 2.0, HALF + 12.0],
+        "mm off the surface; red: without compensation; green: with it",
+    );
     let low = -130.0;
     strip(&mut picture, low, "+2 µm", "-2 µm");
     curve(&mut picture, noisy, low, 0.002, NOISY);

@@ -71,7 +71,7 @@ fn roughing(picture: &mut Picture, job: &Job, tools: &[(&Cutter, [f64; 2])], shi
     for (index, (_, tip)) in tools.iter().enumerate() {
         let x = tip[0] + shift;
         picture.line(&[[x, tip[1]], [x, tip[1] + 0.4]], CUT);
-        picture.text([x, tip[1] + 0.6], &(index + 1).to_string());
+        picture.text([x, tip[1] + 0.9], &(index + 1).to_string());
     }
     step_and_ends(picture, tools, &line, shift);
     if let Some((cutter, tip)) = tools.first() {
@@ -148,7 +148,7 @@ pub fn unrolled(job: &Job, passes: &[Pass]) -> Picture {
     for (index, pass) in passes.iter().take(count).enumerate() {
         picture.line(&[place(pass.from), place(pass.to)], CUT);
         let [x, a] = place(pass.from);
-        picture.text([x, if index % 2 == 0 { a - 2.0 } else { a + 0.8 }], &(index + 1).to_string());
+        picture.text([x, if index % 2 == 0 { a - 3.0 } else { a + 0.8 }], &(index + 1).to_string());
     }
     for pair in passes.windows(2).take(count.saturating_sub(1)) {
         picture.line(&[place(pair[0].to), place(pair[1].from)], LIMIT);
