@@ -17,7 +17,7 @@ pub fn undercut(job: &Job, passes: &[Pass], ball: bool, spacing: f64) -> f64 {
     samples.iter().fold(0.0, |deepest, (point, normal)| {
         let cut = |depth: f64| {
             let point = plus(*point, *normal, -depth);
-            tools.iter().any(|(cutter, tip)| cuts(job, cutter, *tip, point))
+            tools.iter().any(|tool| cuts(job, tool, point))
         };
         if !cut(deepest) {
             return deepest;
@@ -40,14 +40,24 @@ pub fn reaches(job: &Job, passes: &[Pass], height: f64, spacing: f64) -> bool {
         let point = plus(point, normal, height);
         job.section.distance(point) < height - 1e-9
             || point[1] > job.section.top()
-            || tools.iter().any(|(cutter, tip)| cuts(job, cutter, *tip, point))
+            || tools.iter().any(|tool| cuts(job, tool, point))
     })
 }
 
+/// A cutter with the place of its tip in the section and beside the plane of the axis.
+struct Tool<'j> {
+    cutter: &'j Cutter,
+    tip: Point,
+    across: f64,
+}
+
 /// The cutters of one kind with the places of their tips.
-fn tools<'j>(job: &'j Job, passes: &[Pass], ball: bool) -> Vec<(&'j Cutter, Point)> {
-    let all = passes.iter().filter_map(|pass| Some((job.cutter(pass.tool)?, pass.place(job))));
-    all.filter(|(cutter, _)| cutter.ball == ball).collect()
+fn tools<'j>(job: &'j Job, passes: &[Pass], ball: bool) -> Vec<Tool<'j>> {
+    let tool = |pass: &Pass| {
+        let cutter = job.cutter(pass.tool)?;
+        Some(Tool { cutter, tip: pass.place(job), across: pass.across })
+    };
+    passes.iter().filter_map(tool).filter(|tool| tool.cutter.ball == ball).collect()
 }
 
 /// The greatest depth that is cut, from one that is.
@@ -64,19 +74,23 @@ fn deepen(cut: impl Fn(f64) -> bool, from: f64) -> f64 {
 }
 
 /// True when a pass cuts a point of the section.
-fn cuts(job: &Job, cutter: &Cutter, tip: Point, point: Point) -> bool {
+fn cuts(job: &Job, tool: &Tool<'_>, point: Point) -> bool {
+    let Tool { cutter, tip, across } = tool;
     let radius = cutter.diameter / 2.0;
     let lead = job.pitch / std::f64::consts::TAU;
     let [along, high] = [point[0] - tip[0], point[1]];
     if cutter.ball {
         let center = tip[1] + radius;
+        // A positive turn of A brings the point from the plane of the axis towards +Y.
+        let lead = if job.left { -lead } else { lead };
         let gap = |turn: f64| {
-            (along - lead * turn).powi(2) + high * high + center * center
-                - 2.0 * high * center * turn.cos()
+            (along - lead * turn).powi(2)
+                + (high * turn.sin() - across).powi(2)
+                + (high * turn.cos() - center).powi(2)
         };
         let near = gap(0.0) < (radius + REACH).powi(2)
-            && (high - center).abs() < radius
-            && along.abs() < radius + lead;
+            && (high - center.hypot(*across)).abs() < radius
+            && along.abs() < radius + lead.abs();
         return near && gap(lowest(gap, 1.0)) < radius * radius;
     }
     if high <= tip[1] || along.abs() > radius + REACH {

@@ -32,6 +32,10 @@ pub struct Job {
     pub start: f64,
     /// A left-hand groove.
     pub left: bool,
+    /// Balls stand beside the plane of the axis.
+    pub plane: bool,
+    /// Starts of the groove.
+    pub starts: usize,
     /// Allowance of roughing, mm.
     pub stock: f64,
     /// Height of the steps of roughing above the allowance, mm.
@@ -67,6 +71,8 @@ impl Job {
             turns: 4.0,
             start: 0.0,
             left: false,
+            plane: false,
+            starts: 1,
             stock: 0.5,
             rough: 1.0,
             depth: 1000.0,
@@ -92,9 +98,11 @@ impl Job {
         let _ = writeln!(
             text,
             "SCREW / PITCH, {pitch}, TURN, {turns}, DIAMTR, {}, STOCK, {stock}, ROUGH, {rough}, $\n  \
-             FINISH, {finish}, CLEAR, {clear}, TOLER, 0, DEPTH, {depth}, START, {start}{}",
+             FINISH, {finish}, CLEAR, {clear}, TOLER, 0, DEPTH, {depth}, START, {start}{}{}{}",
             2.0 * self.section.top(),
-            if self.left { ", LEFT" } else { "" }
+            if self.left { ", LEFT" } else { "" },
+            if self.plane { ", PLANE" } else { "" },
+            if self.starts > 1 { format!(", TIMES, {}", self.starts) } else { String::new() }
         );
         text + &self.section.cl() + "SCREW / OFF\nFINI\n"
     }
@@ -139,6 +147,8 @@ impl Job {
         self.turns = items.after("TURN");
         self.start = items.after("START");
         self.left = items.0.contains(&"LEFT");
+        self.plane = items.0.contains(&"PLANE");
+        self.starts = (items.after("TIMES") as usize).max(1);
         self.stock = items.after("STOCK");
         self.rough = items.after("ROUGH");
         if items.0.contains(&"DEPTH") {

@@ -15,6 +15,8 @@ pub struct Pass {
     pub from: [f64; 3],
     /// X, Z and A at the end.
     pub to: [f64; 3],
+    /// Y, which stays.
+    pub across: f64,
 }
 
 /// Rounding of a word of three decimals to the nearest, with a little over.
@@ -106,8 +108,10 @@ impl State {
             return Err("a cut begins at an unknown place".to_string());
         }
         let place = |at: [f64; 4]| [at[0], at[2], at[3]];
-        let pass = Pass { line, tool: self.tool, from: place(from), to: place(self.at) };
-        if from[1] != 0.0 || self.at[1] != 0.0 {
+        let across = self.at[1];
+        let pass = Pass { line, tool: self.tool, from: place(from), to: place(self.at), across };
+        let may_be_aside = job.plane && job.cutter(self.tool).is_some_and(|cutter| cutter.ball);
+        if from[1] != across || across != 0.0 && !may_be_aside {
             return Err("the tool is not in the plane of the axis".to_string());
         }
         self.cut(job, &pass).map(|()| Some(pass))

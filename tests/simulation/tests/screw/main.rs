@@ -2,6 +2,7 @@
 //! read back and its passes are swept over the section of the groove, in the plane of
 //! the axis and in space.
 
+mod plane;
 mod random;
 
 use std::io::Cursor;
