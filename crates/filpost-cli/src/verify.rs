@@ -29,19 +29,18 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     let mut cl = output::open(&args.cl)?;
     let nc = Source::file(output::open(&args.nc)?);
     let name = output::input_name(&args.nc);
-    let (program, title) = program(args, &mut cl, (&nc, &name))?;
+    let (mut program, title) = program(args, &mut cl, (&nc, &name), None)?;
     if let Some(map) = &args.map {
         return audited(args, &program, cl, (nc, &name), map);
     }
-    let offsets = args.allow_offset.clone();
-    let allowed =
-        Allowed { tolerance: args.tol, between: args.between, offsets, ..Allowed::default() };
-    let mut run = program.start().cl_name(&output::input_name(&args.cl)).cl_options(options(args)?);
-    if let Some(unit) = args.units.units {
-        run = run.units(unit);
+    let (mut report, reference) = compare(args, &program, cl, &nc)?;
+    if let Some((plain, found)) = as_plain(args, &report)? {
+        output::say(
+            "note: without the retracts of style=production; compared with --option style=plain",
+        );
+        (program, report) = (plain, found);
     }
     let page = program.nc_page();
-    let (report, reference) = run.verify_source(cl, (&nc, &name), allowed)?;
     let cut = material.map(|material| stock(args, &program, &material)).transpose()?;
     output::say(&format!("machine: {title}"));
     match args.format {
@@ -84,6 +83,44 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     let cuts_right = cut.is_none_or(|(_, cut)| !cut.fails);
     Ok(if is_right && cuts_right { Status::Done } else { Status::Failed })
 }
+
+/// What is different between the program and the CL file.
+fn compare(
+    args: &VerifyArgs,
+    program: &Program,
+    cl: std::fs::File,
+    nc: &Source<'_>,
+) -> Result<(Report, Reference), Error> {
+    let offsets = args.allow_offset.clone();
+    let allowed =
+        Allowed { tolerance: args.tol, between: args.between, offsets, ..Allowed::default() };
+    let mut run = program.start().cl_name(&output::input_name(&args.cl)).cl_options(options(args)?);
+    if let Some(unit) = args.units.units {
+        run = run.units(unit);
+    }
+    run.verify_source(cl, (nc, &output::input_name(&args.nc)), allowed)
+}
+
+/// The same of a program without the retracts and restated modes of the post's production style: it
+/// was made by another post, or by this one with `style=plain`, which then differs less.
+fn as_plain(args: &VerifyArgs, report: &Report) -> Result<Option<(Program, Report)>, Error> {
+    let is_asked = args.chosen.option.iter().any(|(name, _)| name == STYLE[0]);
+    let is_stream = [&args.cl, &args.nc].iter().any(|path| path.as_os_str() == "-");
+    if report.verdict() != Verdict::Differs || is_asked || is_stream {
+        return Ok(None);
+    }
+    let mut cl = output::open(&args.cl)?;
+    let nc = Source::file(output::open(&args.nc)?);
+    // A post without this option has one style.
+    let named = (&nc, &*output::input_name(&args.nc));
+    let Ok((plain, _)) = self::program(args, &mut cl, named, Some(STYLE)) else { return Ok(None) };
+    let found = compare(args, &plain, cl, &nc)?.0;
+    let count = |report: &Report| report.findings.len() as u64 + report.more;
+    Ok((count(&found) < count(report)).then_some((plain, found)))
+}
+
+/// The option with which a ready post writes only the blocks of the CL file.
+const STYLE: [&str; 2] = ["style", "plain"];
 
 /// The program cut into stock: its text, and what was found.
 fn stock(
@@ -141,6 +178,7 @@ fn program(
     args: &VerifyArgs,
     cl: &mut std::fs::File,
     (nc, nc_name): (&Source<'_>, &str),
+    option: Option<[&str; 2]>,
 ) -> Result<(Program, String), Error> {
     let folders = select::beside_first(&args.cl, &args.post_path);
     let name = output::input_name(&args.cl);
@@ -155,7 +193,10 @@ fn program(
     if let Some(note) = &named.note {
         output::say(&format!("note: {note}"));
     }
-    Ok((setup::granted(named.builder, &args.grants).build()?, named.title))
+    let builder = setup::granted(named.builder, &args.grants);
+    let builder =
+        option.into_iter().fold(builder, |builder, [name, value]| builder.option(name, value));
+    Ok((builder.build()?, named.title))
 }
 
 /// The finding, and the block it is about.

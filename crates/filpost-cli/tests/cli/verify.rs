@@ -169,3 +169,39 @@ fn a_program_with_fil_is_looked_at_block_by_block() {
         "{ran:?}"
     );
 }
+
+const ONE_TOOL: &str = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nRAPID\nGOTO / 0, 0, 50\n\
+                        FEDRAT / 200, MMPM\nGOTO / 0, 0, -1\nRAPID\nGOTO / 0, 0, 50\nFINI\n";
+
+/// As another post may have written it: no safe start, and no retract at the end.
+const OF_OTHERS: &str = "%\nO0001\nN10 G21 G90 G94 G17\nN20 T1 M6\nN30 S900 M3\nN40 G0 X0. Y0.\n\
+                         N50 G43 Z50. H1\nN60 G1 Z-1. F200.\nN70 G0 Z50.\nN80 M30\n%\n";
+
+const NOTE: &str = "compared with --option style=plain";
+
+#[test]
+fn a_program_without_retracts_is_compared_with_the_plain_style() {
+    let ran = verify(ONE_TOOL, OF_OTHERS, &["-p", "fanuc-mill"], &[]);
+    assert!(ran.status == 0 && ran.err.contains(NOTE), "{}{}", ran.out, ran.err);
+    let deeper = OF_OTHERS.replace("Z-1.", "Z-2.");
+    let ran = verify(ONE_TOOL, &deeper, &["-p", "fanuc-mill"], &[]);
+    assert!(ran.status == 1 && ran.err.contains(NOTE), "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains("1 finding"), "{}", ran.out);
+    let style = ["--option", "style=production"];
+    let ran = verify(ONE_TOOL, OF_OTHERS, &["-p", "fanuc-mill"], &style);
+    assert!(ran.status == 1 && !ran.err.contains(NOTE), "{}{}", ran.out, ran.err);
+}
+
+#[test]
+fn a_production_program_that_lacks_one_retract_is_found() {
+    let place = Folder::new().with("part.ncl", ONE_TOOL);
+    place.run(&["post", "part.ncl", "-p", "haas-mill", "-o", "part.nc"]);
+    let nc = place.text("part.nc").unwrap_or_default();
+    let retracts: Vec<&str> = nc.lines().filter(|line| line.contains("G53 G0 Z0.")).collect();
+    assert_eq!(retracts.len(), 2, "{nc}");
+    for retract in retracts {
+        let ran =
+            verify(ONE_TOOL, &nc.replace(&format!("{retract}\n"), ""), &["-p", "haas-mill"], &[]);
+        assert!(ran.status == 1 && !ran.err.contains(NOTE), "{}{}", ran.out, ran.err);
+    }
+}
