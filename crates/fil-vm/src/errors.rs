@@ -214,6 +214,10 @@ fil_diag::codes! {
         EmptyWhen = 250, Warning, "WHEN without statements",
             "A branch of a CASE does not continue into the next one, so nothing runs for these values.",
             "Write WHEN/a,b for a branch with several values, or CONTIN if nothing should run.";
+        /// A text without quotes that has a call of a function in it.
+        CallInText = 252, Warning, "function call in a text without quotes",
+            "A text without quotes is written as it stands: the function is not called.",
+            "Write the text in quotes, and the function behind a comma: PPRINT/'TOOL ',POSTF(7,4).";
     }
 }
 

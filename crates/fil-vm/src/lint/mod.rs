@@ -5,6 +5,7 @@
 //! caller says with [`MachineFacts`].
 
 mod addresses;
+mod call_in_text;
 mod commons;
 mod context;
 mod early;
@@ -76,6 +77,7 @@ pub(crate) struct Program<'t> {
 /// The lints that look at trees, in the order of their findings.
 const LINTS: &[fn(&mut Context<'_>)] = &[
     unset::look,
+    call_in_text::look,
     positions::look,
     early::look,
     unreachable::look,

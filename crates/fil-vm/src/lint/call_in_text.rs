@@ -1,0 +1,53 @@
+//! W0252: a text without quotes with a call of a function in it, which is written as it stands.
+
+use fil_syntax::tree::{Item, Span, Stmt, StmtKind};
+use fil_syntax::walk::inner_bodies;
+
+use super::context::Context;
+use crate::builtins::BUILTINS;
+use crate::errors::LintCode;
+
+/// Warns at the statement.
+pub(super) fn look(context: &mut Context<'_>) {
+    let mut found: Vec<(usize, Span, &str)> = Vec::new();
+    for (number, unit) in context.program.units.iter().enumerate() {
+        let mut add = |span, name| found.push((number, span, name));
+        for item in &unit.program.items {
+            match item {
+                Item::Stmt(stmt) => statement(stmt, &mut add),
+                Item::Section(section) => statements(&section.body, &mut add),
+                Item::Macro(definition) => statements(&definition.body, &mut add),
+            }
+        }
+    }
+    for (unit, span, name) in found {
+        let message = format!("{name} is part of the text, and is not called");
+        context.report(LintCode::CallInText, unit, span, message);
+    }
+}
+
+fn statements<'t>(body: &'t [Stmt], add: &mut dyn FnMut(Span, &'t str)) {
+    body.iter().for_each(|stmt| statement(stmt, add));
+}
+
+fn statement<'t>(stmt: &'t Stmt, add: &mut dyn FnMut(Span, &'t str)) {
+    if let StmtKind::PostText { text, .. } = &stmt.kind
+        && let Some(name) = called(text)
+    {
+        add(stmt.span, name);
+    }
+    inner_bodies(stmt, &mut |body| statements(body, add));
+}
+
+/// The first word before a bracket that is a function of FIL.
+fn called(text: &str) -> Option<&str> {
+    let brackets = text.match_indices('(').map(|(at, _)| &text[..at]);
+    let words = brackets.filter_map(|before| {
+        before.rsplit(|c: char| !c.is_ascii_alphanumeric() && c != '_').next()
+    });
+    let is_function = |word: &str| {
+        word.eq_ignore_ascii_case("POSTF")
+            || BUILTINS.iter().any(|row| row.name.eq_ignore_ascii_case(word))
+    };
+    words.filter(|word| !word.is_empty()).find(|word| is_function(word))
+}
