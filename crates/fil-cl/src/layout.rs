@@ -185,7 +185,9 @@ impl Record {
         Record { kind: kind::POST, major, ..Record::default() }
     }
 
-    /// A GOTO to a point, with the tool axis if there is one.
+    /// A GOTO to a point in the unit of the program and the coordinates of the part, with the tool axis (a
+    /// vector of length 1 from the tip into the holder) if there is one. What is wrong with it is
+    /// told when it is posted; [`Record::motion`] tells at once.
     pub fn goto(point: [f64; 3], axis: Option<[f64; 3]>) -> Self {
         let mut record = Record::default();
         record.fill_goto(&point, axis.as_ref());

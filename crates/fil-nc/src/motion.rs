@@ -153,8 +153,8 @@ pub enum Compensation {
 /// What the number of a work offset that a word chooses is counted from.
 pub const WORD_OFFSETS: u32 = 1_000_000;
 
-/// A work offset by its name in a program, as [`FrameModes::fixture`] counts it: `G54`,
-/// `G54.1P3`, or another letter with a number for one that a word chooses.
+/// The number of a work offset by its name in a program: 54 for `G54`, 541003 for `G54.1P3`,
+/// 1000000 and the number for one that a word with another letter chooses; `None` for another text.
 pub fn work_offset(name: &str) -> Option<u32> {
     let name = name.to_ascii_uppercase();
     let (letter, rest) = name.split_at_checked(1)?;

@@ -32,7 +32,8 @@ pub struct Finding {
     pub depth: f64,
     /// Length of the way in the material, mm.
     pub length: f64,
-    /// Where it is deepest: X and Y of the cell, Z of the tool's surface, mm.
+    /// Where it is deepest: X and Y of the cell, Z of the tool's surface, mm in the coordinates of
+    /// the part.
     pub at: [f64; 3],
     /// What made the first line, where that is known.
     pub source: Option<Source>,

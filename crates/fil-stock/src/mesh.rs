@@ -27,7 +27,8 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The triangles of an STL file, ASCII or binary; `name` is for the message.
+    /// The triangles of an STL file, ASCII or binary, in mm and the coordinates of the part; `name`
+    /// is for the message.
     ///
     /// # Errors
     /// E0964

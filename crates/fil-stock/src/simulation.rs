@@ -54,8 +54,8 @@ impl Program<'_> {
     }
 }
 
-/// Where work offsets lie in the stock, mm, by their numbers
-/// ([`work_offset`](fil_nc::motion::work_offset)).
+/// Where the zeros of work offsets lie, mm in the coordinates of the stock, by their numbers
+/// ([`work_offset`](fil_nc::motion::work_offset): 54 for G54).
 pub type Offsets = BTreeMap<u32, [f64; 3]>;
 
 /// What a program is simulated with.

@@ -6,7 +6,7 @@ use crate::errors::StockCode;
 use crate::mesh::Mesh;
 use crate::units::{numbers, split_unit};
 
-/// What a program starts from, mm.
+/// What a program starts from, mm in the coordinates of the part.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stock {
     /// A box.

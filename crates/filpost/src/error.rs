@@ -114,7 +114,8 @@ fil_diag::codes! {
 pub enum Error {
     /// The machine or the FIL files are not right; all that is wrong with them.
     Setup(Vec<Diag>),
-    /// The run can't go on: files, a script, the embedding program.
+    /// The run can't go on: a file, a script, the embedding program, a description that can't be
+    /// read.
     Run(Box<Diag>),
     /// The CL file was refused; all that is wrong with it.
     Refused(Box<Refusals>),
@@ -177,6 +178,13 @@ impl std::fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
+
+/// What is wrong with one thing that a host reads for a run: a level, a compat file, a tool, a stock.
+impl From<Box<Diag>> for Error {
+    fn from(diag: Box<Diag>) -> Self {
+        Error::Run(diag)
+    }
+}
 
 /// The codes of each crate.
 const TABLES: [&[Code]; 10] = [

@@ -10,7 +10,8 @@ use fil_machine::Unit;
 use crate::select::Machin;
 use crate::units::UnitSource;
 
-/// Smallest box around the CL points of a run, in CL units.
+/// Smallest box around the CL points of a run, in the unit of the CL file ([`Report::unit`]) and the
+/// coordinates of the part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extents {
     /// Smallest x, y, z.

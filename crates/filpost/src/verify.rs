@@ -26,6 +26,9 @@ use crate::run::Run;
 use crate::spool::{Spool, into_source, spool};
 use crate::units;
 
+#[doc(inline)]
+pub use fil_nc::motion::work_offset;
+#[doc(inline)]
 pub use fil_nc::verify::{
     Allowed, Between, Deviation, Finding, FindingKind, Peak, Report, Unverified, Verdict,
 };

@@ -110,8 +110,8 @@ pub struct Allowed {
     /// Of the tip between the ends of motions that turn the machine, mm; `None` for
     /// what LINTOL of the CL file says, or anything.
     pub between: Option<f64>,
-    /// Work offsets (see [`FrameModes::fixture`](crate::motion::FrameModes::fixture)) that the program
-    /// may choose where the CL file names none.
+    /// Work offsets that the program may choose where the CL file names none, by their numbers
+    /// ([`work_offset`](crate::motion::work_offset): 54 for G54).
     pub offsets: Vec<u32>,
     /// Lines of the CL file whose records are not asked for, in order: no program without
     /// scripts can have them.

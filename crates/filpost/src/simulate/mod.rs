@@ -16,7 +16,7 @@
 //!     RAPID\nGOTO / -10, 10, -2\nFEDRAT / 200, MMPM\nGOTO / 60, 10, -2\nFINI\n";
 //! let posted = program.post(cl)?;
 //! let found = program.start().cl_tools(cl)?;
-//! let stock = Stock::read("box 50x20x10").map_err(filpost::Error::Run)?.expect("a box");
+//! let stock = Stock::read("box 50x20x10")?.expect("a box");
 //! let (levels, offsets) = (Levels::default(), Offsets::new());
 //! let job = Job {
 //!     stock: &stock, tools: &found.tools, part: None, part_tolerance: 0.05, grid: None, offsets: &offsets, levels: &levels,
@@ -47,6 +47,8 @@ use crate::verify::NcProgram;
 pub use cl_tools::ClTools;
 #[doc(hidden)]
 pub use cl_tools::cl_tools;
+#[doc(inline)]
+pub use fil_nc::motion::work_offset;
 #[doc(inline)]
 pub use fil_stock::{
     Cylinder, Finding, Grid, HeightField, Job, Mesh, Offsets, Report, Shape, Simulated, Size,
@@ -89,8 +91,8 @@ impl Run<'_> {
 ///
 /// let nc = b"G21 G90 G94 G17\nT1 M6\nS900 M3\nG0 X-10. Y10.\nG43 Z20. H1\nG0 X60. Z-2.\nM30\n";
 /// let commons = filpost::Program::builder().ready("fanuc-mill").build_machine()?;
-/// let tools = Tools::from([(1, Tool::read("D10").map_err(filpost::Error::Run)?)]);
-/// let stock = Stock::read("box 50x20x10").map_err(filpost::Error::Run)?.expect("a box");
+/// let tools = Tools::from([(1, Tool::read("D10")?)]);
+/// let stock = Stock::read("box 50x20x10")?.expect("a box");
 /// let (levels, offsets) = (filpost::Levels::default(), Offsets::new());
 /// let job = Job {
 ///     stock: &stock, tools: &tools, part: None, part_tolerance: 0.05, grid: None, offsets: &offsets, levels: &levels,

@@ -13,9 +13,9 @@ pub struct Setup {
     pub stock: Option<String>,
     /// The name of the STL file of the finished part, from the setup file on.
     pub part: Option<String>,
-    /// How far a cut may be within the part.
+    /// How far a cut may be within the part, mm.
     pub part_tolerance: Option<f64>,
-    /// The size of a cell.
+    /// The size of a cell, mm.
     pub grid: Option<f64>,
     /// By their numbers.
     pub tools: Tools,
