@@ -38,6 +38,9 @@
 //!
 //! **Limits.** Lengths in reports are in mm, angles in degrees, lines count from 1. What a reader
 //! does not know of a control is an error or a place that is not verified, never a guess.
+//!
+//! **What is API.** These pages. What [`cl`], [`diag`] and [`machine`] give on is of inner crates, and may
+//! change in any version.
 
 pub use fil_cl as cl;
 pub use fil_diag as diag;

@@ -32,6 +32,9 @@
 //! **Limits.** Lengths are mm in the coordinate system of the part, volumes mm³, whatever the unit
 //! of the program. Three axes: a program with a tilted tool is refused, and undercuts have no
 //! place in a height field. At most [`MAX_CELLS`] cells.
+//!
+//! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
+//! change in any version, and all versions change together.
 #![deny(missing_docs)]
 
 pub mod errors;

@@ -27,6 +27,9 @@
 //! **Limits.** No I/O and no clock but those of the host; time and memory of a script by
 //! [`Limits`] (steps, bytes, calls). Numbers are `f64` without a unit: what they count in is the
 //! script's affair.
+//!
+//! **What is API.** These pages. What [`cl`], [`diag`] and [`syntax`] give on is of inner crates, and may
+//! change in any version.
 
 mod allow;
 mod arithmetic;

@@ -23,6 +23,9 @@
 //! still, the requests that look at it go to its own thread, as only that one holds its state.
 //! Going back is a new run from the start to the place: a run with the same input does the
 //! same.
+//!
+//! A tool of [filpost](https://crates.io/crates/filpost), without an API of its own: its items may
+//! change in any version.
 
 // What only the protocol uses is left out by the linker of a page.
 #![cfg_attr(not(feature = "files"), allow(dead_code))]

@@ -20,6 +20,9 @@
 //! **Limits.** One editor a process; the analysis is that of `fil-ide`. The messages are made and read as
 //! JSON values, since the types of the whole protocol take 19 s to compile; the tests read each message
 //! back as its type.
+//!
+//! A tool of [filpost](https://crates.io/crates/filpost), without an API of its own: its items may
+//! change in any version.
 
 mod answer;
 mod capabilities;

@@ -17,6 +17,9 @@
 //! **Limits.** The server listens on the loopback address only. It answers requests that have the
 //! token of its address and come from its own page, by `Host` and `Origin`. It opens no file outside
 //! its folder and never runs what a text names.
+//!
+//! A tool of [filpost](https://crates.io/crates/filpost), without an API of its own: its items may
+//! change in any version.
 #![deny(missing_docs)]
 
 pub mod browser;

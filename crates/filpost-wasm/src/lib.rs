@@ -17,6 +17,9 @@
 //!
 //! **Limits.** Texts are in memory. It needs no thread, no clock and no file, and imports nothing
 //! from its host.
+//!
+//! A tool of [filpost](https://crates.io/crates/filpost), without an API of its own: its items may
+//! change in any version.
 #![deny(missing_docs)]
 
 #[cfg(feature = "plot")]

@@ -15,24 +15,44 @@ fn library(folder: &Path) -> Option<PathBuf> {
     paths.into_iter().find(|path| is_published && path.is_file())
 }
 
-#[test]
-fn each_published_library_begins_with_goal_model_quick_start_and_limits() {
+/// Name of the folder and first screen of each published library.
+fn pages() -> Vec<(String, String)> {
     let root = filpost_tests::root();
     let crates = fs::read_dir(root.join("crates")).unwrap().map(|entry| entry.unwrap().path());
-    let libraries: Vec<PathBuf> =
-        crates.chain([root.join("fil-scripts")]).filter_map(|folder| library(&folder)).collect();
-    assert!(libraries.len() > 15, "{libraries:?}");
-    for path in libraries {
-        let text = fs::read_to_string(&path).unwrap();
-        let page: Vec<&str> = text.lines().map_while(|line| line.strip_prefix("//!")).collect();
+    let folders = crates.chain([root.join("fil-scripts")]);
+    let page = |folder: PathBuf| {
+        let text = fs::read_to_string(library(&folder)?).unwrap();
+        let page = text.lines().map_while(|line| line.strip_prefix("//!"));
+        let name = folder.file_name()?.to_str()?.to_string();
+        Some((name, page.collect::<Vec<_>>().join("\n")))
+    };
+    let pages: Vec<_> = folders.filter_map(page).collect();
+    assert!(pages.len() > 15, "{pages:?}");
+    pages
+}
+
+#[test]
+fn each_published_library_begins_with_goal_model_quick_start_and_limits() {
+    for (name, page) in pages() {
         for part in PARTS {
-            let is_there = |line: &&str| {
+            let is_there = |line: &str| {
                 line.trim_start().starts_with(&format!("**{part}.**"))
                     || line.trim() == format!("# {part}")
             };
-            assert!(page.iter().any(is_there), "{}: no {part}", path.display());
+            assert!(page.lines().any(is_there), "{name}: no {part}");
         }
-        assert!(page.iter().any(|line| line.contains("```")), "{}: no example", path.display());
+        assert!(page.contains("```"), "{name}: no example");
+    }
+}
+
+/// What a host may hold on to: all other published libraries say that they are no API.
+const API: &[&str] = &["filpost", "fil-scripts", "fil-vm", "fil-nc"];
+
+#[test]
+fn each_other_library_says_that_it_is_no_api() {
+    for (name, page) in pages() {
+        let is_marked = page.contains("without an API of its own");
+        assert_eq!(is_marked, !API.contains(&name.as_str()), "{name}");
     }
 }
 
