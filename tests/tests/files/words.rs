@@ -6,6 +6,7 @@
 //! program in order, `$$ warn: W0123` a warning that must come, `$$ error: E0123 at
 //! LINE` a refusal. Sequence numbers, start and end of the program are switched
 //! off unless `$$ whole` asks for them. A CR of the program is shown as `<CR>`.
+//! `FILPOST_UPDATE=1` writes blocks and warnings anew; a refusal is typed by hand.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -29,12 +30,28 @@ fn check(path: &Path) -> Result<(), Failed> {
         (Err(error), None) => Err(error.to_string().into()),
         (Ok(_), Some(expected)) => Err(format!("expected {expected}, but it was posted").into()),
         (Ok(report), None) => {
-            let found: Vec<String> = report.warnings.iter().map(|diag| diag.code.name()).collect();
-            same(&found.join(" "), &header.warnings.join(" "))?;
-            let found = String::from_utf8_lossy(&nc).trim_end().replace('\r', "<CR>");
-            same(&found, &header.expected.join("\n"))
+            let codes = report.warnings.iter().map(|diag| diag.code.name());
+            let warnings: Vec<String> = codes.collect();
+            let program = String::from_utf8_lossy(&nc).trim_end().replace('\r', "<CR>");
+            let is_same = warnings == header.warnings && program == header.expected.join("\n");
+            if !is_same && std::env::var_os("FILPOST_UPDATE").is_some_and(|value| value == "1") {
+                return Ok(std::fs::write(path, updated(&text, &program, &warnings))?);
+            }
+            same(&warnings.join(" "), &header.warnings.join(" "))?;
+            same(&program, &header.expected.join("\n"))
         }
     }
+}
+
+/// A file with other blocks and warnings at the end of its header.
+fn updated(text: &str, program: &str, warnings: &[String]) -> String {
+    let is_result = |line: &&str| line.starts_with("$$ expect:") || line.starts_with("$$ warn:");
+    let (header, rest): (Vec<&str>, Vec<&str>) =
+        text.lines().filter(|line| !is_result(line)).partition(|line| line.starts_with("$$ "));
+    let warnings = warnings.iter().map(|code| format!("$$ warn: {code}"));
+    let blocks = program.lines().map(|block| format!("$$ expect: {block}"));
+    let header = header.into_iter().map(str::to_string).chain(warnings).chain(blocks);
+    header.chain(rest.into_iter().map(str::to_string)).map(|line| line + "\n").collect()
 }
 
 fn same(found: &str, expected: &str) -> Result<(), Failed> {

@@ -69,7 +69,8 @@ pub fn write(tree: &mut Tree, args: &Args) -> Result<String, String> {
          1. {table}: reason and hint. Raise it where the fault is: `{variant}.err(…)`.\n\
          2. docs/errors/{name}.md: an example that gives the message, and one that is right; both are tests.\n\
          3. {case}: the CL file that gives it, and its line.\n\
-         4. cargo test -p filpost-tests --test files errors/ && cargo test -p filpost-tests --test all errors::",
+         4. cargo test -p filpost-tests --test files errors/{name}\n\
+         5. The message on the page: FILPOST_UPDATE=1 cargo test -p filpost-tests --test all errors::",
         tree.told(),
         variant = args.variant
     ))
@@ -115,7 +116,7 @@ fn index(text: &str, line: &str) -> Option<String> {
 
 fn page(name: &str, title: &str) -> String {
     format!(
-        "# {name}: {title}\n\nWhy it is refused or said.\n\n## Wrong\n\n```ncl\nFINI\n```\n\nfilpost says:\n\n\
-         ```text\n{name} part.ncl:1:1: \n```\n\n## Right\n\n```ncl\nFINI\n```\n\nWhat to type or to change.\n"
+        "# {name}: {title}\n\nWhy it is refused or said.\n\n## Wrong\n\n```cl\nFINI\n```\n\nfilpost says:\n\n\
+         ```text\n{name} part.ncl:1:1: \n```\n\n## Right\n\n```cl\nFINI\n```\n\nWhat to type or to change.\n"
     )
 }

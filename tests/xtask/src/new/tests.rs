@@ -69,6 +69,7 @@ fn a_new_word_is_in_all_its_places() {
         ("docs/compat.md", "| DYNDMP | refused: what it does is not known | our own | - |"),
         ("docs/SUMMARY.md", "  - [DYNDMP](reference/word-DYNDMP.md)"),
         ("tests/reference/words.txt", "# DYNDMP"),
+        ("tests/reference/words.txt", "DYNDMP / DARK"),
     ] {
         has_new_line(folder.path(), file, line);
         assert!(told.contains(file), "{told}");
@@ -100,6 +101,14 @@ fn a_new_code_is_in_all_its_places() {
     let table = read(folder.path(), "crates/fil-post/src/errors.rs");
     syn::parse_file(&table).unwrap();
     assert!(table.contains("OfATestAlone = "));
+    // Both examples of its page are run, as those of each page.
+    let page = read(folder.path(), &format!("docs/errors/{number}.md"));
+    let blocks = filpost_tests::examples::blocks(&page);
+    let runs = |heading: &str| {
+        let mut of = blocks.iter().filter(|block| block.heading == heading);
+        of.any(|block| filpost_tests::examples::run(block).is_some())
+    };
+    assert!(runs("Wrong") && runs("Right"), "{page}");
     assert!(code::write(&mut tree, &args).is_err(), "it is there");
 }
 

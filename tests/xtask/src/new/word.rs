@@ -42,7 +42,7 @@ pub fn write(tree: &mut Tree, args: &Args) -> Result<String, String> {
         let row = format!("\n    (w::{name}, Ignored(NO_PROGRAM)),");
         Some(format!("{}{row}{}", &text[..end], &text[end..]))
     })?;
-    tree.change("tests/reference/words.txt", |text| example(text, &name))?;
+    tree.change("tests/reference/words.txt", |text| example(text, &name, &minors))?;
     let row = format!("| {name} | refused: what it does is not known | our own | - |");
     tree.change("docs/compat.md", |text| with_line(text, "| word | forms and effect", "| ", &row))?;
     let line = format!("  - [{name}](reference/word-{name}.md)");
@@ -57,9 +57,10 @@ pub fn write(tree: &mut Tree, args: &Args) -> Result<String, String> {
          2. crates/fil-nc/src/verify/cl_path/words.rs: how `filpost verify` reads it, from the CL file alone.\n\
          3. docs/compat.md: forms, effect, grade, source.\n\
          4. tests/words/{module}-is-refused.ncl: the error that it keeps; a file beside it for what is written.\n\
-         5. A code of its own: cargo xtask new-code.\n\
-         6. The pages: FILPOST_UPDATE=1 cargo test -p filpost-tests --test all -- reference:: verify::\n\
-         7. cargo test -p filpost-tests --test files words/{module}",
+         5. tests/reference/words.txt: an example that a machinist would write.\n\
+         6. A code of its own: cargo xtask new-code.\n\
+         7. The cases: FILPOST_UPDATE=1 cargo test -p filpost-tests --test files words/{module}\n\
+         8. The pages: FILPOST_UPDATE=1 cargo test -p filpost-tests --test all -- reference:: verify::",
         tree.told()
     ))
 }
@@ -106,12 +107,17 @@ fn declare(tree: &mut Tree, name: &str, group_ends: &str) -> Result<(), String> 
     })
 }
 
-fn example(text: &str, name: &str) -> Option<String> {
+/// The examples with one of a word more, a statement for each of its minor words.
+fn example(text: &str, name: &str, minors: &[String]) -> Option<String> {
     let heading = format!("# {name}");
+    let statements: String = match minors {
+        [] => format!("{name}\n"),
+        _ => minors.iter().map(|minor| format!("{name} / {minor}\n")).collect(),
+    };
     let later = |line: &&str| line.starts_with("# ") && **line > *heading;
     let at = text.lines().find(later).and_then(|line| text.find(&format!("{line}\n")));
     let at = at.unwrap_or(text.len());
-    Some(format!("{}{heading}\n{name}\n{}", &text[..at], &text[at..]))
+    Some(format!("{}{heading}\n{statements}{}", &text[..at], &text[at..]))
 }
 
 /// The summary with the page of a word more.
