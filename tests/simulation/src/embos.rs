@@ -210,7 +210,7 @@ fn from_x(picture: &mut Picture, middle: [f64; 2], radius: f64, cuts: &[Cut]) {
         picture.line(&ends.map(|at| place(at.y, at.z)), FIRST);
     }
     picture.line(&[place(y - DISC, z), place(y + DISC, z)], Pen::full("black", 2.5));
-    picture.text(place(y - DISC - 18.0, z - 3.5), "disc");
+    picture.text(place(y - DISC - 16.0, z - 3.5), "disc");
     picture.text(place(0.0, 118.0), "from +X: Y right, Z up");
 }
 
