@@ -9,8 +9,8 @@ fil_diag::codes! {
             "Give its size, such as `--tool 1=D10R0.5L50`, or the CL file with `--cl`.";
         /// A motion that can't be simulated.
         NotSimulated = 962, Error, "move can't be simulated",
-            "The simulation handles three axes in one coordinate system, with the tool upright. It would be wrong for this program.",
-            "Simulate only the part of the program with the tool upright and one work offset.";
+            "The simulation handles a mill with three axes in one coordinate system and the tool upright, and a lathe with inserts and drills on the spindle axis. It would be wrong for this program.",
+            "Simulate only the part of the program with the tool upright and one work offset, on a lathe without live tools.";
         /// A grid with too many cells.
         TooFine = 963, Error, "grid is too fine for the stock",
             "Each cell of the grid takes memory. The number of cells is limited to 40 million.",

@@ -46,15 +46,17 @@ mod simulation;
 mod stock;
 mod survey;
 mod tool;
+mod turning;
 mod units;
 mod way;
 
 pub use field::{Grid, HeightField, MAX_CELLS};
 pub use finding::{Finding, Report, Source};
 pub use mesh::{Mesh, Triangle};
-pub use simulation::{Job, Offsets, Program, Simulated, simulate};
+pub use simulation::{Job, Left, Offsets, Program, Simulated, simulate};
 pub use stock::{Size, Stock};
-pub use tool::{Cylinder, Shape, Tool, Tools, from_cutter, from_tool_data};
+pub use tool::{Body, Cylinder, Shape, Tool, Tools, from_cutter, from_tool_data};
+pub use turning::{Insert, Profile};
 pub use units::{length, place};
 pub use way::Way;
 

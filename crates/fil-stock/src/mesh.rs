@@ -156,8 +156,7 @@ fn ascii(bytes: &[u8]) -> Result<Vec<Triangle>, String> {
 /// The material of a height field as binary STL, mm: each cell a column, columns of one height in
 /// a row as one.
 pub(crate) fn write(field: &HeightField) -> Vec<u8> {
-    let mut out = Facets(vec![0; HEAD]);
-    out.0[..7].copy_from_slice(b"filpost");
+    let mut out = Facets::new();
     let grid = field.grid();
     let x = |column: usize| grid.corner(0, column);
     let y = |row: usize| grid.corner(1, row);
@@ -216,9 +215,7 @@ pub(crate) fn write(field: &HeightField) -> Vec<u8> {
             }
         }
     }
-    let count = ((out.0.len() - HEAD) / BINARY) as u32;
-    out.0[HEAD - 4..HEAD].copy_from_slice(&count.to_le_bytes());
-    out.0
+    out.finish()
 }
 
 /// The parts of a column's side, from one Z to another, that its neighbor leaves open.
@@ -231,11 +228,24 @@ fn open_wall((floor, top): (f64, f64), beside: Option<(f64, f64)>) -> Vec<[f64; 
 }
 
 /// Triangles of a binary file.
-struct Facets(Vec<u8>);
+pub(crate) struct Facets(Vec<u8>);
 
 impl Facets {
+    pub fn new() -> Facets {
+        let mut head = vec![0; HEAD];
+        head[..7].copy_from_slice(b"filpost");
+        Facets(head)
+    }
+
+    /// The file.
+    pub fn finish(mut self) -> Vec<u8> {
+        let count = ((self.0.len() - HEAD) / BINARY) as u32;
+        self.0[HEAD - 4..HEAD].copy_from_slice(&count.to_le_bytes());
+        self.0
+    }
+
     /// A rectangle, its corners counterclockwise seen from outside.
-    fn quad(&mut self, [a, b, c, d]: [[f64; 3]; 4]) {
+    pub fn quad(&mut self, [a, b, c, d]: [[f64; 3]; 4]) {
         for corners in [[a, b, c], [a, c, d]] {
             // Programs take the normal from the corners.
             self.0.extend([0; 12]);

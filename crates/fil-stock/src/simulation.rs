@@ -15,7 +15,8 @@ use crate::mesh::Mesh;
 use crate::removal::{Contact, Wanted};
 use crate::stock::Stock;
 use crate::survey::Survey;
-use crate::tool::{Tool, Tools};
+use crate::tool::{Body, Shape, Tool, Tools};
+use crate::turning::{self, Profile};
 use crate::way::Way;
 
 /// Chords leave arcs by this part of a cell at most.
@@ -77,11 +78,46 @@ pub struct Job<'a> {
     pub levels: &'a Levels,
 }
 
+/// Stock after the last cut.
+#[derive(Clone, Debug)]
+pub enum Left {
+    /// Of a mill.
+    Field(HeightField),
+    /// Of a lathe.
+    Profile(Profile),
+}
+
+impl Left {
+    /// The columns of a mill's stock.
+    pub fn field(&self) -> Option<&HeightField> {
+        match self {
+            Left::Field(field) => Some(field),
+            Left::Profile(_) => None,
+        }
+    }
+
+    /// Volume of the material, mm³.
+    pub fn volume(&self) -> f64 {
+        match self {
+            Left::Field(field) => field.volume(),
+            Left::Profile(profile) => profile.volume(),
+        }
+    }
+
+    /// The material as binary STL, mm.
+    pub fn stl(&self) -> Vec<u8> {
+        match self {
+            Left::Field(field) => field.stl(),
+            Left::Profile(profile) => profile.stl(),
+        }
+    }
+}
+
 /// What is left, and what was found.
 #[derive(Clone, Debug)]
 pub struct Simulated {
     /// The stock after the last cut.
-    pub left: HeightField,
+    pub left: Left,
     /// What was removed, and the findings.
     pub report: Report,
 }
@@ -95,6 +131,9 @@ pub struct Simulated {
 pub fn simulate(program: &Program<'_>, job: &Job<'_>) -> Result<Simulated, Box<Diag>> {
     let survey = Survey::of(program)?;
     survey.refuse(program, job)?;
+    if program.dialect.is_lathe() {
+        return turning::simulate(program, job, &survey);
+    }
     let Some(size) = job.stock.size(survey.cuts()) else {
         return StockCode::BadDescription.err("stock `auto`: the program has no cut below Z0");
     };
@@ -121,7 +160,7 @@ pub fn simulate(program: &Program<'_>, job: &Job<'_>) -> Result<Simulated, Box<D
     let Running { field, mut report, findings, without_holder, .. } = running;
     findings.end(&mut report);
     report.without_holder = without_holder.into_iter().collect();
-    Ok(Simulated { left: field, report })
+    Ok(Simulated { left: Left::Field(field), report })
 }
 
 struct Running<'a> {
@@ -153,18 +192,19 @@ impl Running<'_> {
         }
         self.report.motions += 1;
         let Some(tool) = self.job.tools.get(&motion.modes.tool) else { return };
+        let Body::Shape(shape) = tool.body else { return };
         if motion.modes.compensation.side != Compensation::Off && motion.course != Course::Rapid {
             self.note(StockCode::Compensated, motion);
         }
         match (start, end) {
             (Some(start), Some(end)) => {
                 for way in self.ways(&from, motion, start, end) {
-                    self.go(&way, tool, motion);
+                    self.go(&way, (tool, &shape), motion);
                 }
             }
             (None, Some(end)) if motion.course == Course::Rapid => {
                 self.report.ends_only += 1;
-                self.go(&Way::line(end, end), tool, motion);
+                self.go(&Way::line(end, end), (tool, &shape), motion);
             }
             _ if motion.course == Course::Rapid => self.report.ends_only += 1,
             _ => self.note(StockCode::UnknownStart, motion),
@@ -197,7 +237,10 @@ impl Running<'_> {
                 Some(_) => {}
             }
         }
-        let by_arc = motion.arc.as_ref().map_or(0.0, |arc| arc.angle / self.arc_step(arc, from));
+        let by_arc = motion
+            .arc
+            .as_ref()
+            .map_or(0.0, |arc| arc.angle / chord_degrees(arc, from, self.report.cell));
         let count = by_arc.max(turned / TURN).ceil().clamp(1.0, MOST_PIECES) as u32;
         let mut at = start;
         let piece = |index: u32| {
@@ -210,17 +253,8 @@ impl Running<'_> {
         (1..=count).map(piece).collect()
     }
 
-    /// Degrees of an arc whose chord is near enough.
-    fn arc_step(&self, arc: &Arc, from: &Position) -> f64 {
-        let [first, second] = arc.plane().map(|axis| from.linear[axis] - arc.center[axis]);
-        let radius = libm::hypot(first, second).max(1e-9);
-        let off = (self.report.cell * OF_CELL).min(MOST_OFF);
-        let half = libm::acos((1.0 - off / radius).clamp(-1.0, 1.0));
-        (2.0 * half.to_degrees()).min(30.0)
-    }
-
     /// Moves a tool along a way.
-    fn go(&mut self, way: &Way, tool: &Tool, motion: &Move) {
+    fn go(&mut self, way: &Way, (tool, shape): (&Tool, &Shape), motion: &Move) {
         let is_rapid = motion.course == Course::Rapid;
         // A tool that goes down makes its own hole before its holder comes there.
         let before = (!way.is_vertical()).then(|| self.holder(way, tool));
@@ -230,7 +264,7 @@ impl Running<'_> {
             center: if way.is_plunge() && !is_rapid { tool.toothless } else { 0.0 },
             part: self.part.as_deref().map(|part| (part, self.job.part_tolerance)),
         };
-        let removed = self.field.cut(way, &tool.shape, wanted);
+        let removed = self.field.cut(way, shape, wanted);
         let holder = before.unwrap_or_else(|| self.holder(way, tool));
         if removed.volume > 0.0 {
             *self.report.removed.entry(motion.modes.tool).or_default() += removed.volume;
@@ -264,4 +298,13 @@ impl Running<'_> {
     fn add(&mut self, fault: &Fault, motion: &Move) {
         self.findings.add(fault, motion.line, motion.modes.tool, self.report.motions);
     }
+}
+
+/// Degrees of an arc whose chord is near enough for a size of cells, mm.
+pub(crate) fn chord_degrees(arc: &Arc, from: &Position, cell: f64) -> f64 {
+    let [first, second] = arc.plane().map(|axis| from.linear[axis] - arc.center[axis]);
+    let radius = libm::hypot(first, second).max(1e-9);
+    let off = (cell * OF_CELL).min(MOST_OFF);
+    let half = libm::acos((1.0 - off / radius).clamp(-1.0, 1.0));
+    (2.0 * half.to_degrees()).min(30.0)
 }

@@ -9,6 +9,7 @@ use fil_nc::motion::{Course, Event, Move, Position};
 use crate::errors::StockCode;
 use crate::simulation::{Job, Offsets, Program};
 use crate::stock::Size;
+use crate::tool::Body;
 
 /// A tool axis with less than this beside Z is upright.
 const UPRIGHT: f64 = 1e-7;
@@ -111,11 +112,8 @@ impl Survey {
                 text,
             ))))
         };
-        if program.dialect.is_lathe() {
-            return StockCode::NotSimulated.err("the machine is a lathe: turning is not simulated");
-        }
         let mut tilted = self.tilted.iter().filter(|(unknown, _)| **unknown & self.named == 0);
-        if let Some((_, line)) = tilted.next() {
+        if let Some((_, line)) = tilted.next().filter(|_| !program.dialect.is_lathe()) {
             return at(*line, "the tool axis is tilted".into());
         }
         let mut fixtures = self.fixtures.iter();
@@ -133,6 +131,15 @@ impl Survey {
             self.tools.keys().copied().filter(|tool| !job.tools.contains_key(tool)).collect();
         let list =
             |all: &BTreeSet<u32>| all.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+        let is_insert = |tool: &&u32| {
+            matches!(job.tools.get(*tool).map(|tool| tool.body), Some(Body::Insert(_)))
+        };
+        if let Some(tool) =
+            self.tools.keys().find(is_insert).filter(|_| !program.dialect.is_lathe())
+        {
+            return StockCode::BadDescription
+                .err(format!("tool {tool} of a mill is a turning insert"));
+        }
         match unknown.first() {
             None => Ok(()),
             Some(0) => StockCode::UnknownTool

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use fil_diag::Diag;
 
 use crate::errors::StockCode;
+use crate::turning::Insert;
 use crate::units::split_unit;
 
 /// Tools by their numbers in the program.
@@ -59,6 +60,17 @@ impl Shape {
         }
     }
 
+    /// The radius at a height over the tip, mm.
+    pub(crate) fn radius_at(&self, height: f64) -> f64 {
+        match *self {
+            Shape::Round { radius, corner } => {
+                let below = (corner - height).max(0.0);
+                radius - corner + (corner * corner - below * below).max(0.0).sqrt()
+            }
+            Shape::Cone { radius, tip, rise } => (tip + height / rise).min(radius),
+        }
+    }
+
     /// How steeply the surface rises at a radius.
     pub(crate) fn slope(&self, at: f64) -> f64 {
         match *self {
@@ -107,11 +119,20 @@ pub struct Cylinder {
     pub length: f64,
 }
 
+/// What a tool cuts with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Body {
+    /// A tool that turns.
+    Shape(Shape),
+    /// A turning insert.
+    Insert(Insert),
+}
+
 /// A tool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
     /// The part that cuts.
-    pub shape: Shape,
+    pub body: Body,
     /// From the tip to the holder, mm; `None` when not known.
     pub length: Option<f64>,
     /// The holder from below; empty when not known.
@@ -122,14 +143,17 @@ pub struct Tool {
 
 impl Tool {
     /// A tool whose holder is not known.
-    pub fn new(shape: Shape) -> Tool {
-        Tool { shape, length: None, holder: Vec::new(), toothless: 0.0 }
+    pub fn new(body: Body) -> Tool {
+        Tool { body, length: None, holder: Vec::new(), toothless: 0.0 }
     }
 
     /// A tool from letters with numbers: `D` diameter, `R` corner radius, `A` point angle in
     /// degrees, `F` diameter of a flat tip under `A`, `L` length below the holder, `H` diameter and
     /// length of a piece of the holder (`H40x60`, from below, may be there again), `C` diameter
-    /// without teeth around the center. Lengths are mm, or inch with `in` at the end.
+    /// without teeth around the center. A turning insert has `Q` instead, the direction of its tip
+    /// (1 to 4), `R` nose radius, `W` width of a grooving insert, `A` angle between the trailing
+    /// edge and Z (5 degrees), `S` length of that edge along Z (10 mm). Lengths are mm, or inch with
+    /// `in` at the end.
     ///
     /// # Errors
     /// E0965
@@ -147,7 +171,7 @@ impl Tool {
 /// What the letters of a description give, mm and degrees.
 #[derive(Default)]
 struct Letters {
-    /// By the letters D, R, A, F, L, C.
+    /// By the letters D, R, A, F, L, C, Q, W, S.
     values: BTreeMap<char, f64>,
     holder: Vec<Cylinder>,
 }
@@ -168,19 +192,22 @@ impl Letters {
                 self.holder.push(Cylinder { radius: diameter / 2.0, length });
                 Ok(())
             }
-            'D' | 'R' | 'A' | 'F' | 'L' | 'C' => {
-                let unit = if letter == 'A' { 1.0 } else { unit };
+            'D' | 'R' | 'A' | 'F' | 'L' | 'C' | 'Q' | 'W' | 'S' => {
+                let unit = if matches!(letter, 'A' | 'Q') { 1.0 } else { unit };
                 match self.values.insert(letter, number(text)? * unit) {
                     None => Ok(()),
                     Some(_) => Err(format!("{letter} is given twice")),
                 }
             }
-            _ => Err(format!("{letter} is none of D, R, A, F, L, H and C")),
+            _ => Err(format!("{letter} is none of D, R, A, F, L, H, C, Q, W and S")),
         }
     }
 
     fn tool(self) -> Result<Tool, String> {
         let value = |letter: char| self.values.get(&letter).copied();
+        if let Some(direction) = value('Q') {
+            return self.insert(direction);
+        }
         let diameter = value('D').filter(|diameter| *diameter > 0.0);
         let radius = diameter.ok_or("D, the diameter, is needed")? / 2.0;
         let shape = match (value('A'), value('R')) {
@@ -194,7 +221,30 @@ impl Letters {
             return Err("a holder (H) needs the tool length below it (L)".into());
         }
         let toothless = value('C').unwrap_or(0.0) / 2.0;
-        Ok(Tool { shape, length: value('L'), holder: self.holder, toothless })
+        let body = Body::Shape(shape);
+        Ok(Tool { body, length: value('L'), holder: self.holder, toothless })
+    }
+
+    fn insert(&self, direction: f64) -> Result<Tool, String> {
+        let value = |letter: char| self.values.get(&letter).copied();
+        let is_other = |letter: &&char| !"QRWAS".contains(**letter);
+        if self.values.keys().find(is_other).is_some() || !self.holder.is_empty() {
+            return Err("an insert (Q) has R, W, A and S".into());
+        }
+        let nose = value('R').unwrap_or(0.0);
+        let number = if direction.fract() == 0.0 { direction as u32 } else { 0 };
+        let insert = Insert::pointing(nose, number).ok_or("Q is 1, 2, 3 or 4")?;
+        let insert = Insert {
+            width: value('W'),
+            trailing: value('A').unwrap_or(insert.trailing),
+            edge: value('S').unwrap_or(insert.edge),
+            ..insert
+        };
+        let is_narrow = insert.width.unwrap_or(insert.edge) < 2.0 * nose;
+        if is_narrow || insert.trailing >= 90.0 {
+            return Err("an insert is at least as wide as its nose, and A is below 90".into());
+        }
+        Ok(Tool::new(Body::Insert(insert)))
     }
 }
 
@@ -286,7 +336,7 @@ fn described(
         Some(_) => return Err("it has both a corner radius and a point angle".into()),
     };
     let length = Some(length).filter(|length| *length > 0.0);
-    Ok(Tool { length, ..Tool::new(shape) })
+    Ok(Tool { length, ..Tool::new(Body::Shape(shape)) })
 }
 
 #[cfg(test)]
@@ -294,16 +344,34 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    fn shape(tool: &Tool) -> Shape {
+        match tool.body {
+            Body::Shape(shape) => shape,
+            Body::Insert(insert) => panic!("{insert:?}"),
+        }
+    }
+
+    #[test]
+    fn inserts_are_read() {
+        let tool = Tool::read("Q3R0.8A8").expect("an insert");
+        let Body::Insert(insert) = tool.body else { panic!("{tool:?}") };
+        assert_eq!((insert.nose, insert.along_x, insert.along_z), (0.8, -1.0, -1.0));
+        assert_eq!((insert.width, insert.trailing), (None, 8.0));
+        for text in ["Q5", "Q3D10", "Q3R2W3", "Q3A90", "Q3H10x10"] {
+            assert_eq!(Tool::read(text).expect_err(text).code.name(), "E0965", "{text}");
+        }
+    }
+
     #[test]
     fn descriptions_are_read() {
         let tool = Tool::read("D10R0.5L50H40x60H63x20").expect("a tool");
-        assert_eq!(tool.shape, Shape::Round { radius: 5.0, corner: 0.5 });
+        assert_eq!(shape(&tool), Shape::Round { radius: 5.0, corner: 0.5 });
         assert_eq!(tool.length, Some(50.0));
         assert_eq!(tool.holder.len(), 2);
         let drill = Tool::read("d5 a118").expect("a tool");
-        assert!((drill.shape.height(2.5) - 1.502).abs() < 1e-3, "{drill:?}");
+        assert!((shape(&drill).height(2.5) - 1.502).abs() < 1e-3, "{drill:?}");
         let inch = Tool::read("D0.5in").expect("a tool");
-        assert!((inch.shape.radius() - 6.35).abs() < 1e-12);
+        assert!((shape(&inch).radius() - 6.35).abs() < 1e-12);
     }
 
     #[test]
@@ -330,13 +398,13 @@ mod tests {
     #[test]
     fn cutter_statements_of_apt() {
         let drill = from_cutter(&[10.0, 0.0, 5.0, 3.0043, 31.0, 0.0, 130.0], 1.0).expect("a drill");
-        assert!((drill.shape.height(5.0) - 3.0043).abs() < 1e-3, "{drill:?}");
+        assert!((shape(&drill).height(5.0) - 3.0043).abs() < 1e-3, "{drill:?}");
         let bull =
             from_cutter(&[10.0, 1.0, 4.0, 1.0, 0.0, 0.0, 73.0], 1.0).expect("a bull-nose mill");
-        assert_eq!(bull.shape, Shape::Round { radius: 5.0, corner: 1.0 });
+        assert_eq!(shape(&bull), Shape::Round { radius: 5.0, corner: 1.0 });
         assert!(from_cutter(&[10.0, 0.0, 5.0, 0.0, 0.0, 8.0], 1.0).is_err());
         let drill = from_tool_data(&[8.0, 0.0, 120.0, 118.0, 35.0], 1.0, true).expect("a drill");
-        assert!((drill.shape.height(4.0) - 2.403).abs() < 1e-3, "{drill:?}");
+        assert!((shape(&drill).height(4.0) - 2.403).abs() < 1e-3, "{drill:?}");
     }
 
     pub(crate) fn shapes() -> impl Strategy<Value = Shape> {

@@ -4,7 +4,7 @@ use filpost::cl::reader::Options;
 use filpost::plot::{ClText, Text};
 use filpost::simulate::{Setup, as_json, cl_tools};
 use filpost::stock::errors::StockCode;
-use filpost::stock::{Job, Mesh, Offsets, Stock, Tool, Tools, length};
+use filpost::stock::{Job, Left, Mesh, Offsets, Stock, Tool, Tools, length};
 use filpost::{Error, simulate};
 use serde_json::{Value, json};
 
@@ -105,12 +105,21 @@ impl Simulate {
         let done = simulate::program(Text { name: "the program", bytes }, &commons, &job)?;
         let mut answer = as_json(&done.report);
         if self.heights {
-            let grid = done.left.grid();
-            answer["grid"] = json!({
-                "origin": grid.origin, "step": grid.step, "columns": grid.columns, "rows": grid.rows,
-            });
-            answer["heights"] = json!(done.left.tops());
-            answer["lowest"] = json!(done.left.lowest());
+            match &done.left {
+                Left::Field(field) => {
+                    let grid = field.grid();
+                    answer["grid"] = json!({
+                        "origin": grid.origin, "step": grid.step, "columns": grid.columns, "rows": grid.rows,
+                    });
+                    answer["heights"] = json!(field.tops());
+                    answer["lowest"] = json!(field.lowest());
+                }
+                Left::Profile(profile) => {
+                    answer["disks"] = json!(profile.disks());
+                    answer["from"] = json!(profile.middle(0) - profile.step() / 2.0);
+                    answer["step"] = json!(profile.step());
+                }
+            }
         }
         Ok(answer)
     }
@@ -126,6 +135,9 @@ impl Simulate {
     }
 }
 
+/// Reads a mesh, whose bytes are characters of the same number; a text that has others is one in UTF-8.
 fn read_mesh(file: &Named) -> Result<Mesh, Error> {
-    Mesh::read(&file.name, file.text.as_bytes()).map_err(Error::Run)
+    let bytes: Result<Vec<u8>, _> = file.text.chars().map(u8::try_from).collect();
+    let bytes = bytes.unwrap_or_else(|_| file.text.clone().into_bytes());
+    Mesh::read(&file.name, &bytes).map_err(Error::Run)
 }

@@ -7,6 +7,7 @@ pub mod runout;
 pub mod screw;
 pub mod stock;
 pub mod thread;
+pub mod turning;
 
 /// How many random jobs are run: what an environment variable asks for, or as many as always.
 ///

@@ -68,7 +68,7 @@ fn random_jobs_cut_and_find_what_samples_do() {
     let stock = Stock::read("box 40x30x10").expect("a box").expect("a box");
     let mesh = part_stl();
     let mut counts = [0; 6];
-    for number in 0..jobs("FILPOST_STOCK_JOBS", 10) {
+    for number in 0..jobs("FILPOST_STOCK_JOBS", 24) {
         let sample = Sample::new(seed(number as u64 + 7), SIDES);
         let tools: Tools = sample
             .tools
@@ -77,7 +77,8 @@ fn random_jobs_cut_and_find_what_samples_do() {
             .map(|(cutter, number)| (number, Tool::read(&cutter.description()).expect("a tool")))
             .collect();
         let done = simulated(&sample.program, &tools, &stock, Some(&mesh), CELL);
-        let grid = *done.left.grid();
+        let field = done.left.field().expect("a mill");
+        let grid = *field.grid();
         let columns = (0..grid.columns).map(|column| grid.center(column, 0)[0]).collect();
         let rows = (0..grid.rows).map(|row| grid.center(0, row)[1]).collect();
         let mut model = Model::new(columns, rows, BOTTOM, part);
@@ -110,7 +111,7 @@ fn random_jobs_cut_and_find_what_samples_do() {
                 counts[2 * index + 1] += usize::from(!may);
             }
         }
-        for (cell, top) in done.left.tops().iter().enumerate() {
+        for (cell, top) in field.tops().iter().enumerate() {
             let top = f64::from(*top);
             let (least, most) = (model.least[cell], model.most[cell]);
             assert!(

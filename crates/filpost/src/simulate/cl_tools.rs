@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use fil_cl::{Reader, Record, Vocabulary, Word, record::kind, words as w};
 use fil_machine::Unit;
 use fil_machine::commons::Commons;
+use fil_nc::dialect::Dialect;
 use fil_stock::{Tool, Tools, from_cutter, from_tool_data};
 
 use crate::error::Error;
@@ -30,6 +31,10 @@ pub struct ClTools {
 /// # Errors
 /// What the CL reader refuses.
 pub fn cl_tools(cl: &ClText<'_>, commons: &Commons) -> Result<ClTools, Error> {
+    if Dialect::new(commons).map_err(Error::Run)?.is_lathe() {
+        // CUTTER of a lathe's CL file is a nose: how the insert lies is not in the file.
+        return Ok(ClTools::default());
+    }
     let mut reader = Reader::new(cl.text.bytes, cl.text.name, cl.options);
     let told = reader.told_unit().map(units::of_word);
     let known = units::known_before(cl.unit, told, commons).map_err(Error::Run)?;
@@ -141,14 +146,17 @@ mod tests {
     use crate::plot::Text;
     use fil_cl::reader::Options;
     use fil_machine::locations::default_commons;
-    use fil_stock::Shape;
+    use fil_stock::{Body, Shape};
 
     /// Diameters by number.
     fn diameters(cl: &str) -> Vec<(u32, f64)> {
         let text = Text { name: "part.ncl", bytes: cl.as_bytes() };
         let cl = ClText { text, options: Options::default(), unit: None };
         let found = cl_tools(&cl, &default_commons()).expect("tools").tools;
-        let diameter = |(number, tool): (u32, Tool)| (number, 2.0 * tool.shape.radius());
+        let diameter = |(number, tool): (u32, Tool)| match tool.body {
+            Body::Shape(shape) => (number, 2.0 * shape.radius()),
+            Body::Insert(insert) => panic!("{insert:?}"),
+        };
         found.into_iter().map(diameter).collect()
     }
 
@@ -174,6 +182,6 @@ mod tests {
         let text = Text { name: "part.cls", bytes: text.as_bytes() };
         let cl = ClText { text, options: Options::default(), unit: Some(Unit::Mm) };
         let found = cl_tools(&cl, &default_commons()).expect("tools").tools;
-        assert_eq!(found[&1].shape, Shape::Round { radius: 5.0, corner: 2.0 });
+        assert_eq!(found[&1].body, Body::Shape(Shape::Round { radius: 5.0, corner: 2.0 }));
     }
 }

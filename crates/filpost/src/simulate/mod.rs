@@ -51,8 +51,8 @@ pub use cl_tools::cl_tools;
 pub use fil_nc::motion::work_offset;
 #[doc(inline)]
 pub use fil_stock::{
-    Cylinder, Finding, Grid, HeightField, Job, Mesh, Offsets, Report, Shape, Simulated, Size,
-    Source, Stock, Tool, Tools,
+    Body, Cylinder, Finding, Grid, HeightField, Insert, Job, Left, Mesh, Offsets, Profile, Report,
+    Shape, Simulated, Size, Source, Stock, Tool, Tools,
 };
 pub use json::as_json;
 pub use setup::Setup;
@@ -62,7 +62,7 @@ impl Program {
     ///
     /// # Errors
     /// What has no sure meaning on the machine; E0961 for tools without a size, E0962 for a program
-    /// that three axes in one coordinate system do not describe, E0963 for too many cells, E0965
+    /// that three axes in one coordinate system, or inserts of a lathe, do not describe, E0963 for too many cells, E0965
     /// for stock `auto` of a program without cuts below Z0.
     pub fn simulate(&self, nc: NcProgram<'_>, job: &Job<'_>) -> Result<Simulated, Error> {
         program(Text { name: nc.name, bytes: nc.text }, self.commons(), job)
