@@ -20,9 +20,15 @@ const LONGEST: u64 = 64 << 20;
 /// Longest name of a file, bytes.
 const LONGEST_NAME: usize = 400;
 
-/// Endings of new files: texts, and nothing that a system would start.
-const ENDINGS: [&str; 12] =
-    ["toml", "fil", "inc", "ncl", "cl", "apt", "cls", "cldata", "nc", "txt", "md", "h"];
+/// Endings of new files: texts and bodies, and nothing that a system would start.
+const ENDINGS: [&str; 13] =
+    ["toml", "fil", "inc", "ncl", "cl", "apt", "cls", "cldata", "nc", "txt", "md", "h", MESH];
+
+/// Ending of a body, which may be no text: its bytes are characters of the same number, U+0000 to U+00FF.
+const MESH: &str = "stl";
+
+/// The encoding of such a file.
+const BYTES: &str = "bytes";
 
 /// What a request for files is answered with: JSON, or why not in a sentence.
 type Answer = Result<Value, String>;
@@ -82,6 +88,10 @@ impl Folder {
             return Err(format!("{name} is no file of at most {} MB", LONGEST >> 20));
         }
         let bytes = self.dir.read(name).map_err(cant)?;
+        if ending(name).as_deref() == Some(MESH) {
+            let text: String = bytes.into_iter().map(char::from).collect();
+            return Ok(json!({ "text": text, "encoding": BYTES, "stamp": stamp(&metadata) }));
+        }
         if bytes.contains(&0) {
             return Err(format!("{name} is no text"));
         }
@@ -97,7 +107,7 @@ impl Folder {
         let there = self.dir.symlink_metadata(name).ok();
         match &there {
             Some(metadata) if !metadata.is_file() => return Err(format!("{name} is no file")),
-            None if !has_text_ending(name) => {
+            None if !may_be_new(name) => {
                 return Err(format!("a new file ends with one of .{}", ENDINGS.join(" .")));
             }
             _ => {}
@@ -199,9 +209,14 @@ fn is_name(name: &str) -> Result<(), String> {
     Ok(())
 }
 
-fn has_text_ending(name: &str) -> bool {
+fn may_be_new(name: &str) -> bool {
+    ending(name).is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
+}
+
+/// The ending of a name in small letters.
+fn ending(name: &str) -> Option<String> {
     let ending = Path::new(name).extension().and_then(|ending| ending.to_str());
-    ending.is_some_and(|ending| ENDINGS.contains(&ending.to_ascii_lowercase().as_str()))
+    ending.map(str::to_ascii_lowercase)
 }
 
 /// A text in an encoding; UTF-8 where none is named.
@@ -209,6 +224,10 @@ fn encoded(text: &str, encoding: Option<&str>) -> Result<Vec<u8>, String> {
     let Some(name) = encoding.filter(|name| !name.eq_ignore_ascii_case("UTF-8")) else {
         return Ok(text.as_bytes().to_vec());
     };
+    if name == BYTES {
+        let bytes = text.chars().map(u8::try_from).collect::<Result<_, _>>();
+        return bytes.map_err(|_| "the text has more than bytes".into());
+    }
     let page = CodePage::named(name).ok_or_else(|| format!("files in {name} can't be written"))?;
     match page.encode(text) {
         Ok(bytes) => Ok(bytes.into_owned()),

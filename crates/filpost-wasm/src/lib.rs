@@ -31,7 +31,7 @@ mod coverage;
 #[cfg(feature = "debug")]
 mod debugger;
 mod diagnostics;
-#[cfg(feature = "post")]
+#[cfg(any(feature = "post", feature = "navigate"))]
 mod editor;
 mod fields;
 #[cfg(feature = "post")]
@@ -56,7 +56,7 @@ use filpost::{Diag, Error};
 use serde_json::{Value, json};
 
 use diagnostics::all;
-#[cfg(feature = "post")]
+#[cfg(any(feature = "post", feature = "navigate"))]
 use editor::Edited;
 use fields::Fields;
 pub use watch::Watch;
@@ -129,6 +129,18 @@ fn read(request: Value, watch: &Watch) -> Result<Value, Misuse> {
         "complete" => Edited::read(fields)?.complete(),
         #[cfg(feature = "post")]
         "fixes" => Edited::read(fields)?.fixes(),
+        #[cfg(feature = "navigate")]
+        "outline" => Edited::read(fields)?.outline(),
+        #[cfg(feature = "navigate")]
+        "definition" => Edited::read(fields)?.definition(),
+        #[cfg(feature = "navigate")]
+        "references" => Edited::read(fields)?.references(),
+        #[cfg(feature = "navigate")]
+        "rename" => Edited::read(fields)?.rename(),
+        #[cfg(feature = "navigate")]
+        "signature" => Edited::read(fields)?.signature(),
+        #[cfg(feature = "navigate")]
+        "format" => Edited::read(fields)?.format(),
         #[cfg(feature = "post")]
         "new" => setup::new_post(fields)?,
         #[cfg(feature = "post")]

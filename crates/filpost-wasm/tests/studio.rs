@@ -268,3 +268,44 @@ fn a_request_to_post_is_watched_and_stopped() {
     let stopped = filpost_wasm::answer_watched(request, &watch);
     assert_eq!((&stopped["errors"][0]["code"], &stopped["nc"]), (&json!("E0711"), &Value::Null));
 }
+
+#[test]
+fn an_outline_tells_tools_and_operations_sections_and_macros() {
+    let outline = |language: &str, text: &str| {
+        ask(json!({ "do": "outline", "language": language, "name": "a", "text": text }))
+    };
+    let cl = outline("cl", "UNITS / MM\nLOADTL / 1\nCYCLE / DRILL, DEPTH, 5\nLOADTL / 2\nFINI\n");
+    assert_eq!((&cl[0]["name"], &cl[0]["line"]), (&json!("LOADTL / 1"), &json!(1)));
+    assert_eq!(cl[0]["children"][0]["line"], 2);
+    assert_eq!(cl[1]["line"], 3);
+    let fil = outline("fil", "CIMFIL/ON,COOLNT\nCIMFIL/OFF\nMM=MACRO/AA\nTERMAC\nFINI\n");
+    let names: Vec<_> =
+        fil.as_array().expect("a list").iter().map(|entry| &entry["name"]).collect();
+    assert!(names.contains(&&json!("MM")), "{names:?}");
+}
+
+#[test]
+fn names_are_found_and_get_another_one() {
+    let text = "FIRST = 1\nCIMFIL/ON,COOLNT\n  XX = FIRST\nCIMFIL/OFF\nFINI\n";
+    let at = |what: &str, new: Value| {
+        ask(json!({
+            "do": what, "language": "fil", "name": "post.fil", "text": text, "line": 2,
+            "character": 8, "new": new,
+        }))
+    };
+    let defined = at("definition", Value::Null);
+    assert_eq!((&defined[0]["file"], &defined[0]["range"][0]), (&json!("post.fil"), &json!(0)));
+    assert_eq!(at("references", Value::Null).as_array().map(Vec::len), Some(2));
+    let renamed = at("rename", json!("BEGIN"));
+    assert_eq!(renamed["edits"].as_array().map(Vec::len), Some(2), "{renamed}");
+    assert!(at("rename", json!("1X"))["why"].is_string());
+    let call = ask(json!({
+        "do": "signature", "language": "fil", "name": "post.fil", "text": "XX = SQRTF(", "character": 11,
+    }));
+    assert!(call["label"].as_str().is_some_and(|label| label.starts_with("SQRTF(")), "{call}");
+    let format = |text: &str| {
+        ask(json!({ "do": "format", "language": "fil", "name": "post.fil", "text": text }))
+    };
+    assert!(format("CIMFIL/ON,COOLNT\nXX=1\nCIMFIL/OFF\nFINI\n")["text"].is_string());
+    assert!(format("IF (\n")["why"].is_string());
+}

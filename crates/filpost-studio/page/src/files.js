@@ -7,6 +7,7 @@ const CL = /\.(ncl|cl|cls|apt|aptsource|clf|cldata)(\.\d+)?$/i;
 export const isCl = (name) => CL.test(name);
 export const isFil = (name) => /\.(fil|inc|f\d\d)$/i.test(name);
 export const isMachine = (name) => /(^|\/)[^/]*machine[^/]*\.toml$/i.test(name);
+export const isMesh = (name) => /\.stl$/i.test(name);
 export const isNc = (name) => /\.(nc|tap|h|mpf|spf|eia|cnc|min|ptp)$/i.test(name);
 
 /** What kind of text a file is, as the editor colours and judges it. */
@@ -19,8 +20,8 @@ export function kindOf(name) {
   return "text";
 }
 
-/** Texts with `\n` at the ends of their lines, as editors have them. */
-const plainEnds = (text) => text.replaceAll("\r\n", "\n");
+/** A text with `\n` at the ends of its lines, as editors have it. A body may be no text: its bytes stay. */
+const plainEnds = (name, text) => (isMesh(name) ? text : text.replaceAll("\r\n", "\n"));
 
 export class Files {
   constructor(backend) {
@@ -65,8 +66,8 @@ export class Files {
     if (!file) throw new Error(`there is no ${name}`);
     if (file.text === null) {
       const { text, encoding, stamp } = await this.backend.read(name);
-      file.crlf = text.includes("\r\n");
-      file.text = file.saved = plainEnds(text);
+      file.crlf = !isMesh(name) && text.includes("\r\n");
+      file.text = file.saved = plainEnds(name, text);
       Object.assign(file, { encoding, stamp });
     }
     return file.text;
@@ -76,9 +77,9 @@ export class Files {
   set(name, text, by = null) {
     const file = this.all.get(name);
     const isNew = !file;
-    if (isNew) this.all.set(name, { name, size: 0, stamp: null, text: null, saved: null, crlf: text.includes("\r\n") });
+    if (isNew) this.all.set(name, { name, size: 0, stamp: null, text: null, saved: null, crlf: !isMesh(name) && text.includes("\r\n"), encoding: isMesh(name) ? "bytes" : undefined });
     const known = this.all.get(name);
-    const plain = plainEnds(text);
+    const plain = plainEnds(name, text);
     if (known.text === plain) return;
     known.text = plain;
     if (isNew) this.listed.tell();
@@ -134,5 +135,35 @@ export function joined(folder, name) {
   return parts.join("/");
 }
 
+/** A name from the top as it is said from a folder. */
+export function nameFrom(folder, name) {
+  if (!folder) return name;
+  return name.startsWith(`${folder}/`) ? name.slice(folder.length + 1) : "../".repeat(folder.split("/").length) + name;
+}
+
 export const folderOf = (name) => name.split("/").slice(0, -1).join("/");
 export const baseOf = (name) => name.split("/").at(-1);
+
+/** Where a line, counted from 0, and UTF-16 units in it are in a text. */
+function offset(text, line, units) {
+  let at = 0;
+  for (let passed = 0; passed < line; passed++) {
+    const next = text.indexOf("\n", at);
+    if (next < 0) return text.length;
+    at = next + 1;
+  }
+  return Math.min(at + units, text.length);
+}
+
+/** Makes changes, each `{file, range, text}` with a range of the text before all of them. */
+export function applyEdits(files, edits) {
+  for (const name of new Set(edits.map(({ file }) => file))) {
+    const old = files.text(name);
+    if (old === null) continue;
+    const own = edits.filter(({ file }) => file === name).map(({ range: [line, from, toLine, to], text }) => {
+      return { begin: offset(old, line, from), end: offset(old, toLine, to), text };
+    });
+    own.sort((a, b) => b.begin - a.begin);
+    files.set(name, own.reduce((text, edit) => text.slice(0, edit.begin) + edit.text + text.slice(edit.end), old));
+  }
+}

@@ -1,6 +1,6 @@
 // All that is wrong or doubtful: of posting, of the texts, of the check against the CL file, and of others who judge.
 import { debounced, signal } from "./dom.js";
-import { kindOf } from "./files.js";
+import { applyEdits, kindOf } from "./files.js";
 
 /** Longest program that is checked by itself, characters. */
 const MOST_CHECKED = 3_000_000;
@@ -96,24 +96,8 @@ export class Findings {
 
   /** Does a repair. */
   repair(fix) {
-    for (const { file, range: [line, from, toLine, to], text } of fix.edits) {
-      const old = this.files.text(file);
-      if (old === null) continue;
-      const start = offset(old, line, from);
-      this.files.set(file, old.slice(0, start) + text + old.slice(offset(old, toLine, to)));
-    }
+    applyEdits(this.files, fix.edits);
   }
-}
-
-/** Where a line, counted from 0, and UTF-16 units in it are in a text. */
-function offset(text, line, units) {
-  let at = 0;
-  for (let passed = 0; passed < line; passed++) {
-    const next = text.indexOf("\n", at);
-    if (next < 0) return text.length;
-    at = next + 1;
-  }
-  return Math.min(at + units, text.length);
 }
 
 function postedFindings(answer) {

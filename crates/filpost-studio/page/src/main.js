@@ -7,7 +7,7 @@ import { Cutting } from "./cutting.js";
 import { Debugging } from "./debugging.js";
 import { confirm, tell } from "./dialogs.js";
 import { by, counted, el, tabs } from "./dom.js";
-import { Files, isCl } from "./files.js";
+import { Files, isCl, isMesh } from "./files.js";
 import { Findings } from "./findings.js";
 import { Cases } from "./cases.js";
 import { showView, startLayout, startViews } from "./layout.js";
@@ -18,6 +18,8 @@ import { startDebugger } from "./panes/debugger.js";
 import { Editing } from "./panes/editing.js";
 import { Form } from "./panes/form.js";
 import { startJudging } from "./panes/judging.js";
+import { startNaming } from "./panes/naming.js";
+import { startOutline } from "./panes/outline.js";
 import { PathPane } from "./panes/path.js";
 import { Program } from "./panes/program.js";
 import { startStock } from "./panes/stock.js";
@@ -228,7 +230,7 @@ async function download() {
   const list = await allTexts();
   const nc = posting.answer?.nc;
   const all = nc === undefined ? list : [...list, { name: "program.nc", text: nc }];
-  const zip = zipSync(Object.fromEntries(all.map(({ name, text }) => [name, strToU8(text)])));
+  const zip = zipSync(Object.fromEntries(all.map(({ name, text }) => [name, strToU8(text, isMesh(name))])));
   const address = URL.createObjectURL(new Blob([zip], { type: "application/zip" }));
   el("a", { href: address, download: "post.zip" }).click();
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
@@ -260,6 +262,8 @@ startCasebook(cases, files, posting, {
     showView("program");
   },
 });
+startNaming(files, editing, ask, { open });
+startOutline(files, editing, ask, { open });
 editing.addPane(FORM, "Machine", form.box);
 
 /** For the tests of the page: the text of a file, and a page without files. */

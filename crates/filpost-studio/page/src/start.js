@@ -1,7 +1,7 @@
 // The beginning: a ready post to start from, an option file, or files of one's own.
 import { ask as askDialog, confirm, tell } from "./dialogs.js";
 import { by, el } from "./dom.js";
-import { baseOf } from "./files.js";
+import { baseOf, isMesh } from "./files.js";
 import { MACHINE } from "./posting.js";
 
 const LATHE = /lathe|mill-turn/;
@@ -25,18 +25,15 @@ export async function startPost({ files, ask, examples, takeExample }) {
     el("div", { class: "posts" }, ...FAMILIES.map(([title, isOf]) => {
       const own = posts.filter(({ name }) => isOf(name));
       return el("section", {}, el("h3", {}, title), ...own.map((post) => card(post, close)));
-    })),
-    examples?.length
-      ? el("section", { class: "posts" }, el("h3", {}, "Examples"), ...examples.map((example) => {
-        return el("button", { type: "button", class: "card", onclick: () => close({ example }) }, el("b", {}, example.title));
-      }))
-      : null,
+    }), examples?.length ? el("section", {}, el("h3", {}, "Examples"), ...examples.map((example) => {
+      return el("button", { type: "button", class: "card", onclick: () => close({ example }) }, el("b", {}, example.title));
+    })) : null),
     el(
       "div",
       { class: "buttons" },
       el("button", { type: "button", onclick: () => close({ option: true }) }, "Import an option file…"),
     ),
-  ].filter(Boolean));
+  ]);
   if (!chosen) return false;
   if (chosen.example) return takeExample(chosen.example);
   if (chosen.option) return importOptionFile(files, ask);
@@ -76,9 +73,17 @@ export function chooseFiles(accept = "") {
 export async function readAll(list) {
   const read = await Promise.all([...list].map(async (file) => {
     const bytes = await file.arrayBuffer();
-    return { name: baseOf(file.name), text: decode(bytes) };
+    const name = baseOf(file.name);
+    return { name, text: isMesh(name) ? charactersOf(new Uint8Array(bytes)) : decode(bytes) };
   }));
   return read.filter(({ text }) => text !== null);
+}
+
+/** A character for each byte. */
+function charactersOf(bytes) {
+  const pieces = [];
+  for (let at = 0; at < bytes.length; at += 8192) pieces.push(String.fromCharCode(...bytes.subarray(at, at + 8192)));
+  return pieces.join("");
 }
 
 function decode(bytes) {

@@ -34,6 +34,21 @@ async function shows(page, text) {
   await page.locator("#nc .cm-content", { hasText: text }).waitFor({ timeout: 15_000 });
 }
 
+/** A box as binary STL, from corner to corner. */
+function binaryBox(low, high) {
+  const corner = (bits) => [0, 1, 2].map((axis) => ((bits >> axis) & 1 ? high : low)[axis]);
+  const faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+  const triangles = faces.flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]);
+  const bytes = Buffer.alloc(84 + 50 * triangles.length, 0);
+  // A head with an end of line in it: bytes are not a text.
+  bytes.write("box\r\n\u0000", 0, "latin1");
+  bytes.writeUInt32LE(triangles.length, 80);
+  triangles.forEach((three, number) => {
+    three.flatMap(corner).forEach((value, at) => bytes.writeFloatLE(value, 84 + 50 * number + 12 + 4 * at));
+  });
+  return bytes;
+}
+
 /** What axe-core finds in a page. */
 async function faults(page) {
   await page.evaluate(axe);
@@ -242,6 +257,50 @@ export const tests = {
     await close();
   },
 
+  async "a file has an outline, and its names are found and changed"(studio) {
+    const { page, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    // A CL file by tool and operation.
+    await openFile(page, "cases/first/part.ncl");
+    const outline = page.locator("#outline");
+    await outline.getByRole("button", { name: "LOADTL / 1" }).click();
+    await page.locator("#word", { hasText: "LOADTL" }).waitFor();
+    // A script by sections and macros.
+    await openFile(page, "post.fil");
+    await outline.getByRole("button", { name: /HEADER/ }).first().waitFor();
+    const script = page.locator("#editors .editor:visible");
+    await script.locator(".cm-line", { hasText: "CALL/HEADER" }).click();
+    await page.keyboard.press("End");
+    await page.keyboard.press("F12");
+    await script.locator(".cm-activeLine", { hasText: "MACRO" }).waitFor();
+    const name = script.locator(".cm-line", { hasText: /^HDONE = 0/ });
+    await name.click();
+    await page.keyboard.press("Home");
+    await page.getByRole("button", { name: "Uses" }).click();
+    await page.locator("#dialog li", { hasText: "HDONE.EQ.0" }).waitFor();
+    await picture("uses");
+    assert.deepEqual(await faults(page), [], "the uses");
+    await page.locator("#dialog .close").click();
+    const before = await nc(page);
+    await name.click();
+    await page.keyboard.press("Home");
+    await page.keyboard.press("F2");
+    await page.locator("#dialog input").fill("BEGUN");
+    await page.keyboard.press("Enter");
+    await script.locator(".cm-line", { hasText: "BEGUN.EQ.0" }).waitFor();
+    await said(page, "blocks");
+    assert.equal(await nc(page), before);
+    // The call that is written tells its form, and the layout is that of the formatter.
+    await typeAtTop(page, "IF (1.EQ.1) THEN\nXX = SQRTF(4)\nENDIF\n");
+    await page.getByRole("button", { name: "Format" }).click();
+    await script.locator(".cm-line", { hasText: "XX = SQRTF(4)" }).click();
+    await page.keyboard.press("End");
+    await page.keyboard.press("ArrowLeft");
+    await page.locator("#word .call", { hasText: "SQRTF(" }).waitFor();
+    await picture("names");
+    await close();
+  },
+
   async "the audit lists what a script changed, with the ways there"(studio) {
     const { page, picture, close } = await studio();
     await begin(page, "haas-mill");
@@ -350,6 +409,33 @@ export const tests = {
     await page.keyboard.press("Control+s");
     await page.waitForFunction(() => !document.querySelector("#tree .dirty"));
     assert.match(await read("cases/first/stock.toml"), /1 = "D10"/);
+    await close();
+  },
+
+  async "stock and part are binary STL files"(studio, isPlayground) {
+    const { page, close } = await studio();
+    await begin(page, "haas-mill");
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("#add")]);
+    await chooser.setFiles({ name: "block.stl", mimeType: "model/stl", buffer: binaryBox([-60, -40, -20], [60, 40, 0]) });
+    await page.locator('#tree .name[title="block.stl"]').waitFor();
+    await page.click("#tab-stock");
+    const setup = (name) => page.locator("#stock-form").getByLabel(name);
+    for (const [name, text] of [["Stock", "../../block.stl"], ["Tools", "1 = D10"]]) {
+      await setup(name).fill(text);
+      await setup(name).press("Tab");
+    }
+    await page.locator("#stock-form").getByLabel("Part").locator("option", { hasText: "../../block.stl" }).waitFor({ state: "attached" });
+    const removed = page.locator("#stock-said", { hasText: /Removed [\d,]+ mm³ of 192,000 mm³/ });
+    await removed.waitFor();
+    if (!isPlayground) {
+      // The bytes are the same on the disk, and when they are read again.
+      await page.keyboard.press("Control+s");
+      await page.waitForFunction(() => !document.querySelector("#tree .dirty"));
+      await page.reload();
+      await said(page, "blocks");
+      await page.click("#tab-stock");
+      await removed.waitFor();
+    }
     await close();
   },
 

@@ -5,7 +5,10 @@ import workerText from "worker:./worker.js";
 const PATIENCE = 20_000;
 
 /** What the second module answers; the first has all else. */
-const JUDGED = new Set(["plot", "columns", "verify", "audit", "compare", "motions", "simulate", "debug", "cover"]);
+const JUDGED = new Set([
+  "plot", "columns", "verify", "audit", "compare", "motions", "simulate", "debug", "cover",
+  "outline", "definition", "references", "rename", "signature", "format",
+]);
 
 /** One module in a worker: requests, and a new worker where one takes too long. */
 class Asked {

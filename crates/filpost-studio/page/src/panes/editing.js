@@ -1,5 +1,5 @@
 // The open files, each in a tab with an editor of its own.
-import { by, debounced, el, signal } from "../dom.js";
+import { by, debounced, el, prose, signal } from "../dom.js";
 import { editor, goTo, markdown, markLines, position, setText, showFindings, showMissed, showStanding, showStops } from "../editors.js";
 import { baseOf, isCl, isFil, kindOf } from "../files.js";
 import { MACHINE } from "../posting.js";
@@ -12,6 +12,8 @@ export class Editing {
     /** By name: `{name, tab, box, view}`. */
     this.open = new Map();
     this.current = null;
+    /** Number of the last time that the word at the cursor was asked for. */
+    this.told = 0;
     /** Lines that no case has run, by file. */
     this.missed = new Map();
     /** The cursor is in a line: file and line. */
@@ -90,7 +92,10 @@ export class Editing {
     const asked = language && ((edited) => this.asked(language, name, edited));
     const view = editor(box, {
       name, text, kind, ask: this.ask, file: asked,
-      changed: (edited) => this.files.set(name, edited, view),
+      changed: (edited) => {
+        this.files.set(name, edited, view);
+        this.tellWord(name, view.state.selection.main.head);
+      },
       pointed: (line, at) => {
         this.pointed.tell(name, line);
         this.tellWord(name, at);
@@ -101,6 +106,25 @@ export class Editing {
     this.label(name);
     this.showStops(name);
     if (this.missed.has(name)) showMissed(view, this.missed.get(name));
+  }
+
+  /** The language that a file is asked about; nothing for other texts. */
+  languageOf(name) {
+    return name ? LANGUAGES[kindOf(name)] : undefined;
+  }
+
+  /** The place of the cursor, as requests name it: the file, its text and the position. */
+  place() {
+    const { name, view } = this.open.get(this.current);
+    const { doc, selection } = view.state;
+    return { name, text: doc.toString(), position: position(doc, selection.main.head) };
+  }
+
+  /** The word at the cursor; null for none. */
+  word() {
+    const { state } = this.open.get(this.current).view;
+    const word = state.wordAt(state.selection.main.head);
+    return word && state.sliceDoc(word.from, word.to);
   }
 
   /** A text as requests of the language tools name it. */
@@ -173,7 +197,7 @@ export class Editing {
   async showWord(name, at) {
     const { view } = this.open.get(name) ?? {};
     const language = LANGUAGES[kindOf(name)];
-    const box = by("word");
+    const box = by("word"), number = ++this.told;
     if (!view || name !== this.current) return;
     if (!language || !(isCl(name) || isFil(name) || name === MACHINE)) {
       box.replaceChildren();
@@ -182,8 +206,10 @@ export class Editing {
     const { doc } = view.state;
     const request = { do: "hover", ...this.asked(language, name, doc.toString()), ...position(doc, Math.min(at, doc.length)) };
     const answer = doc.length < 4_000_000 ? await this.ask(request).catch(() => null) : null;
-    if (name !== this.current) return;
-    box.replaceChildren(answer?.markdown ? markdown(answer.markdown) : "");
+    const call = isFil(name) ? await this.ask({ ...request, do: "signature" }).catch(() => null) : null;
+    // The cursor may be elsewhere by now.
+    if (number !== this.told) return;
+    box.replaceChildren(...[call?.label ? callShown(call) : null, answer?.markdown ? markdown(answer.markdown) : null].filter(Boolean));
   }
 
   key(event) {
@@ -198,4 +224,11 @@ export class Editing {
     const next = names[(names.indexOf(this.current) + step + names.length) % names.length];
     this.show(next).then(() => this.open.get(next).tab.focus());
   }
+}
+
+/** The call that is written, with the argument that is next. */
+function callShown({ label, doc, parameters, active }) {
+  const next = parameters[active] ?? "", at = next ? label.indexOf(next, label.search(/[(/]/) + 1) : -1;
+  const form = at < 0 ? [label] : [label.slice(0, at), el("b", {}, next), label.slice(at + next.length)];
+  return el("div", { class: "hover" }, el("p", {}, el("code", { class: "call" }, ...form)), doc ? el("p", { class: "quiet" }, ...prose(doc)) : null);
 }

@@ -283,7 +283,7 @@ function focusIn(list) {
   };
 }
 
-const UNITS = { code: "number of a G or M code", mm: "mm", deg: "degrees", rpm: "turns/min", s: "seconds", "mm/min": "mm/min", letter: "a letter", char: "a character", count: "a whole number" };
+const UNITS = { code: "number of a G or M code", mm: "mm", deg: "degrees", rpm: "rpm", s: "seconds", "mm/min": "mm/min", letter: "a letter", char: "a character", count: "a whole number" };
 
 /** Values that a setting may have instead, as TOML writes them: what is near comes first. */
 function otherValues({ unit, choices, value, base, default: usual }) {

@@ -1,5 +1,6 @@
 // The pane of the stock: what is cut, with which tools, and what came of it.
 import { by, counted, el } from "../dom.js";
+import { folderOf, isMesh, nameFrom } from "../files.js";
 
 const volume = (mm3) => `${Math.round(mm3).toLocaleString("en")} mm³`;
 
@@ -30,9 +31,7 @@ export function startStock(cutting, files, posting, { open, showPath }) {
   /** Shows what the setup file says; a file with comments is only edited as a text. */
   async function load() {
     const name = cutting.file(), text = name ? files.text(name) ?? await files.read(name) : "";
-    const parts = files.names().filter((each) => /\.stl$/i.test(each));
-    const folder = (name ?? cutting.newFile()).split("/").slice(0, -1);
-    const meshes = parts.filter((each) => each.split("/").slice(0, -1).join("/") === folder.join("/")).map((each) => each.split("/").at(-1));
+    const meshes = files.names().filter(isMesh).map((each) => nameFrom(folderOf(name ?? cutting.newFile()), each));
     const key = `${name} ${text} ${meshes.join("|")} ${posting.part}`;
     if (key === shown) return;
     shown = key;
@@ -66,7 +65,7 @@ export function startStock(cutting, files, posting, { open, showPath }) {
       : trouble ? trouble.split("\n")
       : cutting.file()
         ? [cutting.isLarge ? "A long program: press Cut." : "Waits for a program."]
-        : ["Enter the stock: box:100x80x30 (X0 Y0 is its left front corner, Z0 its top), cylinder:60x100, tube:60x20x100, auto, or an STL file beside the part. Tools come from the CL file; here are those that it does not describe."];
+        : ["Enter the stock: box:100x80x30 (X0 Y0 is its left front corner, Z0 its top), cylinder:60x100, tube:60x20x100, auto, or an STL file. Tools come from the CL file; here are those that it does not describe: 1 = D10R0.5, on a lathe 1 = Q3R0.8 for an insert."];
     by("stock-said").replaceChildren(...lines.map((line) => el("p", { class: trouble && !isRunning ? "error" : "" }, line)));
     by("tab-stock").classList.toggle("bad", Boolean(report?.findings.length || trouble));
   }

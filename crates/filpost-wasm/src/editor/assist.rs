@@ -1,58 +1,11 @@
-//! What an editor asks of a text: findings, hover, proposals.
+//! Findings and their repairs, hover, proposals.
 
-use fil_ide::{Edit, Finding, Fix, Item, Position, Range, Script, Text, cl_file, machine};
-use filpost::{Commons, Included, settings};
+use fil_ide::{Edit, Finding, Fix, Item, Text, cl_file, machine};
 use serde_json::{Value, json};
 
-use crate::Misuse;
-use crate::fields::{Fields, Named};
-
-/// What language a text is in.
-#[derive(Clone, Copy)]
-enum Language {
-    Fil,
-    Cl,
-    Machine,
-}
-
-/// An edited text, and a place in it.
-pub(crate) struct Edited {
-    language: Language,
-    name: String,
-    text: String,
-    /// Line, counted from 0.
-    line: u32,
-    /// UTF-16 units from the start of the line.
-    character: u32,
-    /// The `machine.toml` that FIL runs on.
-    machine: Option<String>,
-    includes: Vec<Named>,
-}
+use super::{Edited, Language, places};
 
 impl Edited {
-    pub fn read(mut fields: Fields) -> Result<Self, Misuse> {
-        let language = match fields.needed("language")?.as_str() {
-            "fil" => Language::Fil,
-            "cl" => Language::Cl,
-            "machine" => Language::Machine,
-            other => {
-                return Err(Misuse(format!("`language` must be fil, cl or machine, not {other}")));
-            }
-        };
-        let count = |number: Option<u64>| u32::try_from(number.unwrap_or(0)).unwrap_or(u32::MAX);
-        let edited = Edited {
-            language,
-            name: fields.needed("name")?,
-            text: fields.needed("text")?,
-            line: count(fields.number("line")?),
-            character: count(fields.number("character")?),
-            machine: fields.text("machine")?,
-            includes: fields.files("includes")?,
-        };
-        fields.end()?;
-        Ok(edited)
-    }
-
     /// Findings as `{line, from, to_line, to, code, severity, message}`; places as editors
     /// count them. A CL file is judged by posting it.
     pub fn findings(&self) -> Value {
@@ -83,7 +36,7 @@ impl Edited {
 
     /// What stands at the place: Markdown and its range, or null.
     pub fn hover(&self) -> Value {
-        let position = Position { line: self.line, character: self.character };
+        let position = self.position();
         let found = match self.language {
             Language::Cl => cl_file::hover(&Text::new(&self.text), position),
             Language::Machine => machine::hover(&Text::new(&self.text), position),
@@ -97,7 +50,7 @@ impl Edited {
 
     /// What may stand at the place: `{label, detail, kind, range}` of each.
     pub fn complete(&self) -> Value {
-        let position = Position { line: self.line, character: self.character };
+        let position = self.position();
         let items: Vec<Item> = match self.language {
             Language::Cl => Vec::new(),
             Language::Machine => machine::complete(&Text::new(&self.text), position),
@@ -113,22 +66,6 @@ impl Edited {
             })
         };
         items.into_iter().map(item).collect()
-    }
-
-    fn with_script<T>(&self, ask: impl FnOnce(&Script) -> T) -> T {
-        let mut includes = |_: &str, name: &str| {
-            let found = self.includes.iter().find(|file| file.name == name);
-            match found {
-                Some(file) => Ok(Included { name: file.name.clone(), text: file.text.clone() }),
-                None => Err(format!("there is no {name} here")),
-            }
-        };
-        let machine: Option<Commons> = self.machine.as_ref().and_then(|text| {
-            let ready = |base: &str| filpost::ready::find(base).map(|post| post.machine);
-            settings::read_toml_with("machine.toml", text, &ready).ok().map(|(commons, _)| commons)
-        });
-        let files = [(self.name.as_str(), self.text.as_str())];
-        ask(&Script::new(&files, &self.name, Some(&mut includes), machine.as_ref()))
     }
 }
 
@@ -150,9 +87,4 @@ fn fix(fix: &Fix) -> Value {
         "preferred": fix.preferred,
         "edits": fix.edits.iter().map(edit).collect::<Vec<_>>(),
     })
-}
-
-/// A range as `[line, character, line, character]`, from 0.
-fn places(range: Range) -> [u32; 4] {
-    [range.start.line, range.start.character, range.end.line, range.end.character]
 }
