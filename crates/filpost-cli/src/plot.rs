@@ -121,7 +121,7 @@ fn program(
     nc: Text<'_>,
     inputs: &mut Vec<PathBuf>,
 ) -> Result<(Drawing, String), Error> {
-    let cl = args.cl.as_ref().map(|path| Ok((path, read(path)?))).transpose()?;
+    let cl = args.cl.as_ref().map(|path| Ok::<_, Error>((path, read(path)?))).transpose()?;
     let named = machine(args, nc, cl.as_ref().map(|(path, bytes)| (path.as_path(), &bytes[..])))?;
     inputs.extend(named.inputs);
     let (program, title) = (named.builder.build()?, named.title);

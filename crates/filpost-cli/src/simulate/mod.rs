@@ -34,7 +34,7 @@ pub fn run(args: &SimulateArgs) -> Result<Status, Error> {
     let bytes = read(&args.nc)?;
     let name = output::input_name(&args.nc);
     let nc = Text { name: &name, bytes: &bytes };
-    let cl = args.cl.as_ref().map(|path| Ok((path, read(path)?))).transpose()?;
+    let cl = args.cl.as_ref().map(|path| Ok::<_, Error>((path, read(path)?))).transpose()?;
     let named = machine(args, nc, cl.as_ref().map(|(path, bytes)| (path.as_path(), &bytes[..])))?;
     let mut inputs = named.inputs.clone();
     inputs.extend([&args.nc].into_iter().chain(&args.cl).chain(&args.map).cloned());

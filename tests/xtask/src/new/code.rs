@@ -42,7 +42,8 @@ pub fn write(tree: &mut Tree, args: &Args) -> Result<String, String> {
     let number = free_number(tree, &text)?;
     let name = format!("{}{number:04}", if kind == "Warning" { 'W' } else { 'E' });
     tree.change(&table, |text| {
-        let end = text.rfind("\n    }\n}")?;
+        let table = text.split("#[cfg(test)]").next()?;
+        let end = table.rfind("\n    }\n}")?;
         let row = format!(
             "\n        /// {title}.\n        {variant} = {number}, {kind}, \"{title}\",\n            \
              \"Why it is refused or said.\",\n            \"What to type or to change.\";",
