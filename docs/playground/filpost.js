@@ -5,9 +5,9 @@
  * Loads the module. `bytes` are those of filpost.wasm, `words` the pages of the post words,
  * where its editors are asked. What comes back answers requests one
  * by one; a request that breaks the module (its stack or its memory is full) throws, and the
- * next one begins with a fresh module.
+ * next one begins with a fresh module. `read` makes the answer of its JSON text.
  */
-export async function load(bytes, words) {
+export async function load(bytes, words, read = JSON.parse) {
   const module = await WebAssembly.compile(bytes);
   let instance = null;
 
@@ -25,7 +25,7 @@ export async function load(bytes, words) {
       new Uint8Array(memory.buffer, at, text.length).set(text);
       const length = filpost_answer();
       const answer = new Uint8Array(memory.buffer, filpost_answered(), length);
-      return JSON.parse(new TextDecoder().decode(answer));
+      return read(new TextDecoder().decode(answer));
     } catch (error) {
       instance = null;
       throw error;

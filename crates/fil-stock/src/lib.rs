@@ -3,8 +3,8 @@
 //! **Goal.** What an NC program cuts out of a piece of stock: rapid traverse through stock, a
 //! holder in stock, cutting with a stopped spindle, cuts below a part.
 //!
-//! **Model.** [`simulate`] moves the tools of a [`Program`] through a [`HeightField`] and gives a
-//! [`Report`] of findings and volumes. It reads programs with `fil-nc` and knows nothing of CL
+//! **Model.** [`simulate`] moves the tools of a [`Program`] through a [`HeightField`], on a lathe
+//! through a [`Profile`], and gives a [`Report`] of findings and volumes. It reads programs with `fil-nc` and knows nothing of CL
 //! files or of the post.
 //!
 //! **Quick start.**
@@ -31,7 +31,8 @@
 //!
 //! **Limits.** Lengths are mm in the coordinate system of the part, volumes mm³, whatever the unit
 //! of the program. Three axes: a program with a tilted tool is refused, and undercuts have no
-//! place in a height field. At most [`MAX_CELLS`] cells.
+//! place in a height field. On a lathe inserts and drills on the spindle axis cut, live tools do
+//! not. At most [`MAX_CELLS`] cells.
 //!
 //! Inner crate of [filpost](https://crates.io/crates/filpost), without an API of its own: it may
 //! change in any version, and all versions change together.

@@ -296,7 +296,7 @@ fn names_are_found_and_get_another_one() {
     let defined = at("definition", Value::Null);
     assert_eq!((&defined[0]["file"], &defined[0]["range"][0]), (&json!("post.fil"), &json!(0)));
     assert_eq!(at("references", Value::Null).as_array().map(Vec::len), Some(2));
-    let renamed = at("rename", json!("BEGIN"));
+    let renamed = at("rename", json!("STARTED"));
     assert_eq!(renamed["edits"].as_array().map(Vec::len), Some(2), "{renamed}");
     assert!(at("rename", json!("1X"))["why"].is_string());
     let call = ask(json!({

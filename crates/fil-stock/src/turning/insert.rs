@@ -42,10 +42,12 @@ impl Insert {
     /// How far the edge is behind its tip along X, at a distance from the tip along Z to the side
     /// of its body, within the span and beside it by `skin` less. The edge is `skin` further back.
     fn depth(&self, at: f64, skin: f64) -> f64 {
+        let nose = (self.nose - skin).max(0.0);
+        // A nose that is smaller than the skin leaves a sharp corner that far back.
+        let center = self.nose.max(skin);
         let round = |from_center: f64| {
-            let nose = (self.nose - skin).max(0.0);
             let out = from_center.abs().min(nose);
-            self.nose - (nose * nose - out * out).sqrt()
+            center - (nose * nose - out * out).sqrt()
         };
         let from_center = at - self.nose;
         if from_center <= 0.0 {
@@ -55,12 +57,12 @@ impl Insert {
             return round((from_center - (width - 2.0 * self.nose)).max(0.0));
         }
         let (sine, cosine) = libm::sincos(self.trailing.to_radians());
-        let nose = (self.nose - skin).max(0.0);
         if from_center <= nose * sine {
             return round(from_center);
         }
         // The edge goes on from the nose along its tangent.
-        self.nose - nose * cosine + (from_center - nose * sine) * sine / cosine
+        let edge = self.nose + (from_center * sine - (self.nose - skin)) / cosine;
+        edge.max(center - nose)
     }
 
     /// The X to which the edge comes over a Z while its programmed point goes from one place to
@@ -141,6 +143,15 @@ mod tests {
                 prop_assert!(found >= farthest - 0.2, "{} {}", found, farthest);
             }
             prop_assert!(found.is_some() || farthest.is_none());
+        }
+
+        /// The smaller edge is as far back as the skin, and never in front of the edge.
+        #[test]
+        fn a_smaller_edge_is_further_back(insert in inserts(), share in 0.01..0.99f64) {
+            let skin = 0.01;
+            let at = insert.span()[1] * share;
+            let back = insert.depth(at, skin) - insert.depth(at, 0.0);
+            prop_assert!(back >= skin - 1e-9, "{insert:?} at {at}: {back}");
         }
     }
 }

@@ -28,13 +28,13 @@ class Asked {
     this.worker.postMessage({ wasm: this.wasm, words: this.words });
   }
 
-  settle({ number, answer, failure }) {
+  settle({ number, text, failure }) {
     const waiting = this.waiting.get(number);
     if (!waiting) return;
     this.waiting.delete(number);
     clearTimeout(waiting.timer);
     if (failure) waiting.reject(new Error(failure));
-    else waiting.resolve(answer);
+    else waiting.resolve(JSON.parse(text));
   }
 
   /** Asks; a patient request waits until it is answered, or somebody stops it. */
