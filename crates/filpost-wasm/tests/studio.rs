@@ -278,10 +278,10 @@ fn an_outline_tells_tools_and_operations_sections_and_macros() {
     assert_eq!((&cl[0]["name"], &cl[0]["line"]), (&json!("LOADTL / 1"), &json!(1)));
     assert_eq!(cl[0]["children"][0]["line"], 2);
     assert_eq!(cl[1]["line"], 3);
-    let fil = outline("fil", "CIMFIL/ON,COOLNT\nCIMFIL/OFF\nMM=MACRO/AA\nTERMAC\nFINI\n");
+    let fil = outline("fil", "XX=1\nCIMFIL/ON,COOLNT\nCIMFIL/OFF\nMM=MACRO/AA\nTERMAC\nFINI\n");
     let names: Vec<_> =
         fil.as_array().expect("a list").iter().map(|entry| &entry["name"]).collect();
-    assert!(names.contains(&&json!("MM")), "{names:?}");
+    assert!(names.contains(&&json!("MM")) && !names.contains(&&json!("XX")), "{names:?}");
 }
 
 #[test]

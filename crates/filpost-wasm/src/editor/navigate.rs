@@ -1,6 +1,6 @@
 //! Outlines, where names are, new names, the call that is written, and the layout of a text.
 
-use fil_ide::{Edit, Outline, Place, Script, Text, cl_file, machine};
+use fil_ide::{Edit, Outline, OutlineKind, Place, Script, Text, cl_file, machine};
 use serde_json::{Value, json};
 
 use super::{Edited, Language, places};
@@ -14,7 +14,7 @@ impl Edited {
             Language::Machine => machine::outline(&Text::new(&self.text)),
             Language::Fil => self.with_script(|script| script.outline()),
         };
-        found.iter().map(entry).collect()
+        entries(&found).collect()
     }
 
     /// Where the name at the place is defined: `{file, range}` of each.
@@ -68,11 +68,15 @@ impl Edited {
     }
 }
 
-fn entry(outline: &Outline) -> Value {
-    json!({
-        "name": outline.name,
-        "line": outline.range.start.line,
-        "children": outline.children.iter().map(entry).collect::<Vec<_>>(),
+/// Entries with those in them. Variables are left out: a script has many, and they have no length.
+fn entries(found: &[Outline]) -> impl Iterator<Item = Value> {
+    let listed = found.iter().filter(|outline| outline.kind != OutlineKind::Variable);
+    listed.map(|outline| {
+        json!({
+            "name": outline.name,
+            "line": outline.range.start.line,
+            "children": entries(&outline.children).collect::<Vec<_>>(),
+        })
     })
 }
 
