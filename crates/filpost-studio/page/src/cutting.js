@@ -56,6 +56,12 @@ export class Cutting {
     return keys;
   }
 
+  /** The shapes of the tools that the setup file gives, for the view: mm and degrees. Turning inserts have none. */
+  async shapes() {
+    const { tools = {} } = await this.keys().catch(() => ({}));
+    return Object.entries(tools).map(([number, text]) => shapeOf(Number(number), String(text))).filter(Boolean);
+  }
+
   /** Writes the setup file of the part anew. */
   write({ stock, part, grid, tools }) {
     const text = JSON.stringify;
@@ -110,6 +116,20 @@ export class Cutting {
       };
     });
   }
+}
+
+/** A tool as `D10 R0.5 A118 L50` describes it; null where it has no diameter. */
+function shapeOf(number, text) {
+  const unit = /in\s*$/i.test(text) ? 25.4 : 1;
+  const value = (letter) => {
+    const found = new RegExp(`${letter}\\s*([\\d.]+)`, "i").exec(text);
+    return found ? Number(found[1]) : 0;
+  };
+  const point = value("A");
+  if (!value("D")) return null;
+  return {
+    number, diameter: value("D") * unit, corner: value("R") * unit, bottom: point ? 90 - point / 2 : 0, length: value("L") * unit || null,
+  };
 }
 
 /** What is left of the stock as a body. */

@@ -385,7 +385,7 @@ export const tests = {
     const setup = (name) => page.locator("#stock-form").getByLabel(name);
     await setup("Stock").fill("box:120x80x20@-60,-40,-20");
     await setup("Stock").press("Tab");
-    await setup("Tools").fill("1 = D10");
+    await setup("Tools").fill("1 = D10R1");
     await setup("Tools").press("Tab");
     await page.locator("#stock-said", { hasText: "Nothing was found. Removed" }).or(page.locator("#stock-said", { hasText: /Removed|E09/ })).first().waitFor();
     await picture("stock-clean");
@@ -403,12 +403,14 @@ export const tests = {
     await page.click("#tab-stock");
     await page.getByRole("button", { name: "Show in Path" }).click();
     await page.locator(".fv-legend label", { hasText: "feed" }).waitFor();
+    // The tool has the size that is given here, and not that of the CL file.
+    await page.locator(".fv-state", { hasText: "T1 bull ⌀10 R1" }).waitFor();
     await picture("stock-path");
     await page.click("#tab-stock");
     assert.deepEqual(await faults(page), [], "the stock");
     await page.keyboard.press("Control+s");
     await page.waitForFunction(() => !document.querySelector("#tree .dirty"));
-    assert.match(await read("cases/first/stock.toml"), /1 = "D10"/);
+    assert.match(await read("cases/first/stock.toml"), /1 = "D10R1"/);
     await close();
   },
 

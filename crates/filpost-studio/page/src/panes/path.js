@@ -66,6 +66,7 @@ export class PathPane {
   showStock() {
     const { report } = this.cutting;
     this.view?.setStock(report ? bodyOf(report) : null);
+    if (report && !this.isStale) this.showTools();
   }
 
   /** The path of a text as the answer to a request for it; null where there is none. */
@@ -81,7 +82,15 @@ export class PathPane {
     const { answer, part } = this.posting, number = ++this.asked;
     const cl = (part && this.files.text(part)) ?? "";
     const program = answer?.nc === undefined ? null : await this.columns({ nc: answer.nc, cl, cl_name: part });
-    if (number === this.asked) this.view.setProgram(program);
+    if (number !== this.asked) return;
+    this.view.setProgram(program);
+    await this.showTools();
+  }
+
+  /** Shows tools as the setup file of the stock gives them, in place of those of the CL file. */
+  async showTools() {
+    const shapes = await this.cutting.shapes();
+    if (shapes.length) this.view?.setTools(shapes);
   }
 
   listSecond() {

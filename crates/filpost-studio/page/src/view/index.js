@@ -163,6 +163,7 @@ class View {
     if (!this.program) return;
     const given = new Set(tools.map(({ number }) => number));
     this.program.tools = [...this.program.tools.filter(({ number }) => !given.has(number)), ...tools];
+    this.panel.forgetPlace();
     this.setTime(this.time);
   }
 

@@ -197,6 +197,11 @@ class Panel {
     this.legend.hidden = !rows.length;
   }
 
+  /** The tools have other shapes: what is said of them is said anew. */
+  forgetPlace() {
+    this.stood = -1;
+  }
+
   showPlace(program, piece, seconds, point) {
     const unit = unitOf(program), line = program.lines[piece];
     if (piece !== this.stood) {
