@@ -1,5 +1,6 @@
 //! How far a request has come, and what stops it.
 
+#[cfg(feature = "post")]
 use std::io::{Read, Result, Seek, SeekFrom};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
