@@ -6,7 +6,8 @@ use std::collections::HashMap;
 /// A line of FIL that had a part in a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FilLine {
-    /// Number of the FIL file, in the order they were loaded.
+    /// Number of the FIL file, from 0, in the order they were loaded: that of its name in
+    /// `Program::fil_files`.
     pub file: u16,
     /// Line, 1-based.
     pub line: u32,
@@ -17,7 +18,7 @@ pub struct FilLine {
 pub struct Origin {
     /// Number of the CL record, 1-based; 0 before the first record.
     pub record: u32,
-    /// Line of the CL file, 1-based.
+    /// Line of the CL file, 1-based; 0 before the first record.
     pub line: u32,
     /// FIL call stack, innermost first; empty when no section was running.
     pub fil: Vec<FilLine>,

@@ -42,15 +42,16 @@ const FUEL_BETWEEN_CHECKS: u64 = 1 << 16;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Loop passes, backward jumps, macro calls and record reads of one run of
-    /// a section or global area.
+    /// a section or global area; 100 000 000 unless set.
     pub fuel: u64,
-    /// Macro calls within macro calls.
+    /// Macro calls within macro calls; 64 unless set.
     pub call_depth: usize,
-    /// Elements of all arrays together (RESERV).
+    /// Elements of all arrays together (RESERV); 1 000 000 unless set.
     pub array_elements: usize,
-    /// Bytes of text held at a time.
+    /// Bytes of text held at a time; 16 MiB unless set.
     pub text_bytes: usize,
-    /// Bytes of the program that a run writes; the machine itself does not look at it.
+    /// Bytes of the program that a run writes, 4 GiB unless set; the run looks at it, and the
+    /// interpreter alone does not.
     pub output_bytes: u64,
 }
 
