@@ -56,8 +56,8 @@
 //! # What is API
 //!
 //! What these pages show. Other items of this crate, and the crates `fil-…` under it, are for the
-//! tools of the workspace: they change in any version. [`mod@records`] and [`mod@verify`] name all
-//! that the API takes from them.
+//! tools of the workspace: they change in any version. [`mod@records`], [`mod@simulate`] and
+//! [`mod@verify`] name all that the API takes from them.
 #![deny(missing_docs)]
 
 mod allow;
