@@ -243,9 +243,11 @@ fn center(number: usize, section: &Section, bounds: &Bounds) -> Result<Point3<f6
         return Err(RunOutError::Number);
     }
     let run_out = largest.value - least.value;
-    if run_out < 0.0 {
+    // Without run-out the noise of the probe may put the least reading above the largest.
+    if run_out < -2.0 * bounds.tolerance {
         return Err(RunOutError::Order { section: number });
     }
+    let run_out = run_out.max(0.0);
     if run_out > bounds.run_out {
         return Err(RunOutError::TooMuch { section: number, run_out });
     }
