@@ -29,7 +29,11 @@ pub const ROUNDED: [&str; 18] = [
 
 /// Words of an axis, by the program, the letter and the block, that bring no tool to the part
 /// elsewhere, whatever they say.
-pub const IDLE: [(&str, u8, &str); 46] = [
+pub const IDLE: [(&str, u8, &str); 48] = [
+    // Higher than RETURN: the control returns to where the cycle begins, clear of the part.
+    ("words/cycle-behind-another-cycle-returns-to-its-own-level", b'Z', "`Z1.`"),
+    // The rapid that begins TCPC goes straight up to the same Z.
+    ("words/rotary-tcpc-after-an-arc-in-another-plane", b'Z', "`G0 Z50.`"),
     // Where a long line is divided: the tool goes through the point, and no block is too long.
     ("words/goto-longer-than-a-block-may-be", b'X', "`G1 X35. F100.`"),
     // The rapid back after a repositioning ends farther away: more of the way is made at feed.
