@@ -111,7 +111,7 @@ pub struct Allowed {
     /// what LINTOL of the CL file says, or anything.
     pub between: Option<f64>,
     /// Work offsets that the program may choose where the CL file names none, by their numbers
-    /// ([`work_offset`](crate::motion::work_offset): 54 for G54).
+    /// ([`work_offset`]: 54 for G54).
     pub offsets: Vec<u32>,
     /// Lines of the CL file whose records are not asked for, in order: no program without
     /// scripts can have them.

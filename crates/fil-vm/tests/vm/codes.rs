@@ -132,6 +132,7 @@ fn lint_case(number: u16) -> Option<(&'static str, u32)> {
         244 => ("CIMFIL/ON,DRILL\nRAPID\nCIMFIL/OFF", 1),
         245 => ("XX=1\nCHUCK/1", 2),
         249 => ("XX=1\nYY=XX*X", 2),
+        252 => ("XX=1\nPPRINT/TOOL POSTF(5)", 2),
         250 => ("CASE/1\nWHEN/2\nWHEN/3\nRAPID\nENDCAS", 2),
         248 => ("IF(1.EQ.1)THEN\nIF(2.EQ.2)RAPID\nELSE\nRAPID\nENDIF", 2),
         246 => ("IF(ICODEF(EMBOSL).EQ.1)RAPID", 1),

@@ -59,7 +59,7 @@ fn a_case_tests_what_becomes_of_the_post() {
     assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
     assert_eq!(place.run(&["test", "own"]).out, "2 passed, 0 failed\n");
     let machine = place.text("own/machine.toml").unwrap_or_default();
-    let place = place.with("own/machine.toml", &format!("seqno.increment = 5\n{machine}"));
+    let place = place.with("own/machine.toml", format!("seqno.increment = 5\n{machine}"));
     let ran = place.run(&["test", "own"]);
     assert!(ran.out.ends_with("0 passed, 2 failed\n"), "{}{}", ran.out, ran.err);
 }
