@@ -128,6 +128,7 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let rapto_is_level = check.commons.read(loc::CYCLE_RAPTO) == CycleRapto::AboveTheHole;
     let path = ClPath::new(check.cl, check.cl_name, settings.input_shift())
         .with_rapto_as_level(rapto_is_level)
+        .ending_by(settings.end_codes())
         .with_rigid_taps(check.commons.read(loc::CYCLE_TAP_RIGID));
     let path = path.on_machine(settings.shift_along(), settings.matrix_leaves_axis());
     let path = path.through(settings.input_matrix());

@@ -101,6 +101,8 @@ struct State {
     rapto_is_level: bool,
     /// Each TAP is rigid, as with HIGH.
     taps_are_rigid: bool,
+    /// M codes that end the program.
+    end_codes: Vec<u32>,
 }
 
 /// Goes through a CL file.
@@ -125,6 +127,13 @@ impl<'r> ClPath<'r> {
     #[must_use]
     pub fn with_rigid_taps(mut self, are_rigid: bool) -> Self {
         self.state.taps_are_rigid = are_rigid;
+        self
+    }
+
+    /// The same path, where AUXFUN with one of these codes ends the program.
+    #[must_use]
+    pub fn ending_by(mut self, end_codes: Vec<u32>) -> Self {
+        self.state.end_codes = end_codes;
         self
     }
 

@@ -64,7 +64,7 @@ pub(super) const WORDS: &[(WordId, Reading)] = &[
     (w::LINTOL, S(State::straight)),
     (w::MODE, S(|_, record| mode(record))),
     (w::PREFUN, Own(|state, record, _| state.preparatory(record))),
-    (w::AUXFUN, Or(Effect::Auxiliary, |_, record| auxiliary(record))),
+    (w::AUXFUN, Or(Effect::Auxiliary, |state, record| state.auxiliary(record))),
     (w::CLAMP, S(|_, record| vec![ExpectedStep::Clamp(record.has(w::ON))])),
     (w::SET, S(|_, record| offset_by_number(record))),
     (w::STOP, S(|_, _| vec![ExpectedStep::Stop { optional: false }])),
@@ -133,6 +133,16 @@ impl State {
             Some(EndsThePath) => vec![open(Effect::Path)],
             Some(ByKind | Ignored(_)) | None => Vec::new(),
         }
+    }
+
+    fn auxiliary(&self, record: &Record) -> Option<Steps> {
+        let code = numbers(record).first().and_then(|code| whole(*code))?;
+        let ends = self.end_codes.contains(&code);
+        Some(vec![if ends {
+            ExpectedStep::End(End::By(code))
+        } else {
+            ExpectedStep::Auxiliary(code)
+        }])
     }
 
     fn units(&mut self, record: &Record) -> Steps {
@@ -232,15 +242,6 @@ fn dwell(record: &Record) -> ExpectedStep {
 fn mode(record: &Record) -> Steps {
     let mode = [(w::TURN, false), (w::MILL, true)].into_iter().find(|(word, _)| record.has(*word));
     mode.map(|(_, mills)| ExpectedStep::Mills(mills)).into_iter().collect()
-}
-
-fn auxiliary(record: &Record) -> Option<Steps> {
-    let code = numbers(record).first().and_then(|code| whole(*code))?;
-    // ISO 6983 ends programs by these, and so does each control.
-    Some(vec![match code {
-        2 | 30 => ExpectedStep::End(End::By(code)),
-        _ => ExpectedStep::Auxiliary(code),
-    }])
 }
 
 fn offset_by_number(record: &Record) -> Steps {

@@ -360,6 +360,13 @@ impl Settings<'_> {
         }
     }
 
+    /// The codes that end a program on this machine: its own, and those of ISO 6983.
+    pub fn end_codes(&self) -> Vec<u32> {
+        let own = [loc::PROGRAM_REWIND_CODE, loc::PROGRAM_END_CODE];
+        let own = own.into_iter().filter_map(|at| self.commons.read(at).map(number));
+        own.chain([2, 30]).collect()
+    }
+
     /// True when the start of the program has an S word.
     pub fn has_speed_at_start(&self) -> bool {
         user_blocks::START.read(self.commons).iter().any(|block| {
