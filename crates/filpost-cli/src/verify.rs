@@ -34,7 +34,7 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
         return audited(args, &program, cl, (nc, &name), map);
     }
     let (mut report, reference) = compare(args, &program, cl, &nc)?;
-    if let Some((plain, found)) = as_plain(args, &report)? {
+    if let Some((plain, found)) = as_plain(args, &program, &report)? {
         output::say(
             "note: without the retracts of style=production; compared with --option style=plain",
         );
@@ -102,11 +102,17 @@ fn compare(
 }
 
 /// The same of a program without the retracts and restated modes of the post's production style: it
-/// was made by another post, or by this one with `style=plain`, which then differs less.
-fn as_plain(args: &VerifyArgs, report: &Report) -> Result<Option<(Program, Report)>, Error> {
-    let is_asked = args.chosen.option.iter().any(|(name, _)| name == STYLE[0]);
+/// was made by another post, or by this one with `style=plain`, which then differs less. A style that
+/// somebody gives, with the command or in the machine.toml, is the one that is compared.
+fn as_plain(
+    args: &VerifyArgs,
+    program: &Program,
+    report: &Report,
+) -> Result<Option<(Program, Report)>, Error> {
+    let is_given =
+        program.options().iter().any(|option| option.name == STYLE[0] && option.is_given);
     let is_stream = [&args.cl, &args.nc].iter().any(|path| path.as_os_str() == "-");
-    if report.verdict() != Verdict::Differs || is_asked || is_stream {
+    if report.verdict() != Verdict::Differs || is_given || is_stream {
         return Ok(None);
     }
     let mut cl = output::open(&args.cl)?;
