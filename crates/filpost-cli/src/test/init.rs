@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use filpost::case::Case;
+use filpost::map::Names;
 use filpost::{Diag, Error, PendingFiles, files, select};
 
 use crate::args::{Chosen, TestArgs};
@@ -144,7 +145,7 @@ impl Making<'_> {
     /// The name of a file of the post, from the folder of the case.
     fn named(&self, path: &Path) -> Result<String, Error> {
         files::read(path)?;
-        Ok(from_folder(&absolute(self.folder), &absolute(path)))
+        Ok(Names::from_folder(&absolute(self.folder), &absolute(path)))
     }
 
     /// Notes a file that has to be copied; gives its name in the case.
@@ -228,18 +229,6 @@ fn absolute(path: &Path) -> PathBuf {
         }),
         None => path,
     }
-}
-
-/// A path as it is named in a folder, with `/` on each system.
-fn from_folder(folder: &Path, path: &Path) -> String {
-    let common = folder.components().zip(path.components()).take_while(|(a, b)| a == b).count();
-    if common == 0 {
-        return path.to_string_lossy().into_owned();
-    }
-    let up = folder.components().skip(common).map(|_| "..".to_string());
-    let down = path.components().skip(common);
-    let down = down.map(|part| part.as_os_str().to_string_lossy().into_owned());
-    up.chain(down).collect::<Vec<_>>().join("/")
 }
 
 fn quoted(text: &str) -> String {
