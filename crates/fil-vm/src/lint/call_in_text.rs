@@ -1,7 +1,6 @@
 //! W0252: a text without quotes with a call of a function in it, which is written as it stands.
 
-use fil_syntax::tree::{Item, Span, Stmt, StmtKind};
-use fil_syntax::walk::inner_bodies;
+use fil_syntax::tree::{Span, StmtKind};
 
 use super::context::Context;
 use crate::builtins::BUILTINS;
@@ -10,33 +9,17 @@ use crate::errors::LintCode;
 /// Warns at the statement.
 pub(super) fn look(context: &mut Context<'_>) {
     let mut found: Vec<(usize, Span, &str)> = Vec::new();
-    for (number, unit) in context.program.units.iter().enumerate() {
-        let mut add = |span, name| found.push((number, span, name));
-        for item in &unit.program.items {
-            match item {
-                Item::Stmt(stmt) => statement(stmt, &mut add),
-                Item::Section(section) => statements(&section.body, &mut add),
-                Item::Macro(definition) => statements(&definition.body, &mut add),
-            }
+    context.each_statement(&mut |unit, stmt| {
+        if let StmtKind::PostText { text, .. } = &stmt.kind
+            && let Some(name) = called(text)
+        {
+            found.push((unit, stmt.span, name));
         }
-    }
+    });
     for (unit, span, name) in found {
         let message = format!("{name} is part of the text, and is not called");
         context.report(LintCode::CallInText, unit, span, message);
     }
-}
-
-fn statements<'t>(body: &'t [Stmt], add: &mut dyn FnMut(Span, &'t str)) {
-    body.iter().for_each(|stmt| statement(stmt, add));
-}
-
-fn statement<'t>(stmt: &'t Stmt, add: &mut dyn FnMut(Span, &'t str)) {
-    if let StmtKind::PostText { text, .. } = &stmt.kind
-        && let Some(name) = called(text)
-    {
-        add(stmt.span, name);
-    }
-    inner_bodies(stmt, &mut |body| statements(body, add));
 }
 
 /// The first word before a bracket that is a function of FIL.

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use fil_cl::Vocabulary;
 use fil_diag::Diag;
 use fil_syntax::tree::{ExprKind, Item, Macro, Section, SectionKey, Span, Stmt, StmtKind};
+use fil_syntax::walk::inner_bodies;
 
 use super::flow::{Action, Graph};
 use super::walk::{self, Use};
@@ -108,6 +109,22 @@ impl<'t> Context<'t> {
         self.diags.push(diag);
     }
 
+    /// Every statement with its unit, as they are written: those of the global areas, of sections
+    /// and of macros, and those inside of others.
+    pub fn each_statement(&self, visit: &mut dyn FnMut(usize, &'t Stmt)) {
+        for (number, unit) in self.program.units.iter().enumerate() {
+            let mut visit = |stmt| visit(number, stmt);
+            for item in &unit.program.items {
+                let body = match item {
+                    Item::Stmt(stmt) => std::slice::from_ref(stmt),
+                    Item::Section(section) => &section.body,
+                    Item::Macro(definition) => &definition.body,
+                };
+                within(body, &mut visit);
+            }
+        }
+    }
+
     /// Sections as they are written.
     pub fn sections(&self) -> impl Iterator<Item = (usize, &'t Section)> + '_ {
         self.bodies.iter().filter_map(|body| match body.owner {
@@ -173,5 +190,12 @@ pub(crate) fn called(owner: Owner<'_>) -> String {
             SectionKey::Types { kind, .. } => format!("the section for {kind}"),
         },
         Owner::Macro(definition) => format!("the macro {}", definition.name.text),
+    }
+}
+
+fn within<'t>(body: &'t [Stmt], visit: &mut dyn FnMut(&'t Stmt)) {
+    for stmt in body {
+        visit(stmt);
+        inner_bodies(stmt, &mut |body| within(body, visit));
     }
 }

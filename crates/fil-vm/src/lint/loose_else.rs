@@ -1,27 +1,23 @@
 //! W0248: an ELSE that may be meant for the one-line IF before it, as its indentation
 //! does not tell otherwise.
 
-use fil_syntax::tree::{Item, Span, Stmt, StmtKind};
+use fil_syntax::tree::{Span, StmtKind};
 
 use super::context::Context;
 use crate::errors::LintCode;
-use fil_syntax::walk::inner_bodies;
 
 /// Warns at the one-line IF.
 pub(super) fn look(context: &mut Context<'_>) {
     let mut found: Vec<(usize, Span)> = Vec::new();
-    for (number, unit) in context.program.units.iter().enumerate() {
-        let mut spans = Vec::new();
-        for item in &unit.program.items {
-            match item {
-                Item::Stmt(stmt) => statement(stmt, &mut spans),
-                Item::Section(section) => statements(&section.body, &mut spans),
-                Item::Macro(definition) => statements(&definition.body, &mut spans),
-            }
-        }
-        let loose = spans.into_iter().filter(|span| !stands_out(&unit.file.text, *span));
-        found.extend(loose.map(|span| (number, span)));
-    }
+    context.each_statement(&mut |unit, stmt| {
+        let StmtKind::If { arms, otherwise } = &stmt.kind else { return };
+        // Every part that ELSEIF or ELSE follows.
+        let followed = if otherwise.is_some() { arms.len() } else { arms.len() - 1 };
+        let last = arms[..followed].iter().filter_map(|(_, body)| body.last());
+        let one_line = last.filter(|stmt| matches!(stmt.kind, StmtKind::IfOne { .. }));
+        found.extend(one_line.map(|stmt| (unit, stmt.span)));
+    });
+    found.retain(|(unit, span)| !stands_out(&context.program.units[*unit].file.text, *span));
     for (unit, span) in found {
         let message = "the ELSE after it belongs to the IF around it".to_string();
         context.report(LintCode::LooseElse, unit, span, message);
@@ -38,19 +34,4 @@ fn stands_out(text: &str, statement: Span) -> bool {
         is_else.then_some(indent)
     });
     word.is_some_and(|word| word < column(statement.range().start))
-}
-
-fn statements(body: &[Stmt], found: &mut Vec<Span>) {
-    body.iter().for_each(|stmt| statement(stmt, found));
-}
-
-fn statement(stmt: &Stmt, found: &mut Vec<Span>) {
-    if let StmtKind::If { arms, otherwise } = &stmt.kind {
-        // Every part that ELSEIF or ELSE follows.
-        let followed = if otherwise.is_some() { arms.len() } else { arms.len() - 1 };
-        let last = arms[..followed].iter().filter_map(|(_, body)| body.last());
-        let one_line = last.filter(|stmt| matches!(stmt.kind, StmtKind::IfOne { .. }));
-        found.extend(one_line.map(|stmt| stmt.span));
-    }
-    inner_bodies(stmt, &mut |body| statements(body, found));
 }
