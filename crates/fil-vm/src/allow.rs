@@ -8,7 +8,6 @@ use std::collections::HashMap;
 use fil_diag::{Code, CodeKind, Diag, Level, Levels};
 
 use crate::compile::files::Unit;
-use crate::errors::LintCode;
 
 /// True for a code that can be allowed: every warning, and what may not be what is meant.
 pub fn is_allowable(code: &Code) -> bool {
@@ -18,9 +17,6 @@ pub fn is_allowable(code: &Code) -> bool {
 /// The levels of a load: those of its caller for all files, and comments in each.
 pub(crate) struct Allowed<'a> {
     levels: &'a Levels,
-    /// The load is a check, which gives no warning that a comment allows. A run gives
-    /// those that say how it reads the script.
-    checks: bool,
     files: Vec<File<'a>>,
 }
 
@@ -33,9 +29,9 @@ struct File<'a> {
 
 impl<'a> Allowed<'a> {
     /// The levels in these files.
-    pub fn new(levels: &'a Levels, checks: bool, units: &'a [Unit]) -> Self {
+    pub fn new(levels: &'a Levels, units: &'a [Unit]) -> Self {
         let files = units.iter().map(|unit| File::new(&unit.file.name, &unit.file.text));
-        Allowed { levels, checks, files: files.collect() }
+        Allowed { levels, files: files.collect() }
     }
 
     /// What the comments allow: the number of the file, the line or 0 for the whole file, and
@@ -70,10 +66,6 @@ impl<'a> Allowed<'a> {
 
     fn is_allowed_by_comment(&self, diag: &Diag) -> bool {
         if !is_allowable(diag.code) {
-            return false;
-        }
-        let is_finding = LintCode::ALL.iter().any(|code| code == diag.code);
-        if !self.checks && !diag.is_error() && !is_finding {
             return false;
         }
         let name = diag.spans.first().map(|place| place.file.as_str());
@@ -165,7 +157,7 @@ fn codes(comment: &str) -> Option<(bool, Vec<String>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::errors::CompileCode;
+    use crate::errors::{CompileCode, LintCode};
     use fil_diag::TextSpan;
 
     fn diag(code: impl Into<&'static Code>, line: u32) -> Diag {
@@ -177,7 +169,7 @@ mod tests {
     }
 
     fn level(levels: &Levels, text: &str, diag: &Diag) -> Level {
-        Allowed { levels, checks: false, files: vec![File::new("a.fil", text)] }.level(diag)
+        Allowed { levels, files: vec![File::new("a.fil", text)] }.level(diag)
     }
 
     #[test]
@@ -207,7 +199,8 @@ mod tests {
         assert_eq!(level(&allowed, "", &open), Level::Allow);
         let own = diag(CompileCode::OwnReading, 1);
         let comment = "X=POSTF(5) $$ filpost: allow W0218\n";
-        assert_eq!(level(&none, comment, &own), Level::Warn, "a run says it");
+        assert_eq!(level(&none, comment, &own), Level::Allow);
+        assert_eq!(level(&none, "", &own), Level::Warn);
         let label = diag(CompileCode::UnknownLabel, 1);
         let comment = "JUMPTO/LA $$ filpost: allow E0201\n";
         assert_eq!(level(&allowed, comment, &label), Level::Deny);

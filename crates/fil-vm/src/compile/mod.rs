@@ -136,7 +136,7 @@ pub fn analyze(
         includes.read(file.name, file.text);
     }
     let (units, found, mut diags) = includes.finish();
-    let allowed = Allowed::new(&levels, lint, &units);
+    let allowed = Allowed::new(&levels, &units);
     let input = resolve::Input { units: &units, found: &found, vocabulary: vocab, functions };
     let (resolution, names, unresolved) = resolve::resolve(input);
     diags.extend(unresolved);
