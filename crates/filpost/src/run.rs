@@ -419,7 +419,7 @@ impl<'o> Run<'o> {
         let name = self.name();
         let cant = |error| files::cant_read(Path::new(&name), &error);
         let start = cl.stream_position().map_err(cant)?;
-        let reader = Reader::seekable(&mut *cl, &name, self.reading);
+        let reader = Reader::seekable(&mut *cl, &name, self.options());
         let pass = Pass::First { counted: Box::default(), guessed: false };
         let first = self.of_program(self.program.clone());
         let found =
