@@ -12,7 +12,7 @@ const DIALECTS: usize = 3;
 
 /// Conditions under which the standard numbers of a row go before all settings: they are no part of
 /// the look-up of a dialect.
-const OVERLAYS: [&str; 2] = ["OspLengths", "OspThread"];
+const OVERLAYS: [&str; 3] = ["OspLengths", "OspThread", "OspCycles"];
 
 /// A number that is read, in tenths, and its row.
 type Reading = (u32, usize);

@@ -62,6 +62,8 @@ groups! {
     CycleEnd,
     /// The plane that a cycle returns to (G98, G99).
     ReturnPlane,
+    /// The level that a cycle returns to, by a word of its block (G71 Z of an OSP).
+    ReturnLevel,
     /// Absolute or incremental positions (G90, G91).
     Distance(Distance),
     /// What F counts (G93 to G95).
@@ -270,6 +272,8 @@ pub enum When {
     NoOspLengths,
     /// Whole threads are written by G71 of an OSP.
     OspThread,
+    /// Cycles return to a level of G71 by M53, or to the R plane by M54.
+    OspCycles,
     /// The settings name a tapping cycle: without one there is none for left-hand threads either.
     TapCycle,
     /// Cycles return to a plane by a code, which means nothing else then. Not read in G code system
@@ -292,7 +296,8 @@ impl When {
             When::OspLengths => osp_lengths::are_meant(commons),
             When::NoOspLengths => !osp_lengths::are_meant(commons),
             When::TapCycle => commons.read(loc::CYCLE_TAP_CODE).is_some(),
-            When::ReturnCodes => returns_by_codes(commons),
+            When::ReturnCodes => returns_by(commons, CycleReturnCodes::Yes),
+            When::OspCycles => returns_by(commons, CycleReturnCodes::G71OfAnOsp),
             _ => true,
         }
     }
@@ -303,6 +308,7 @@ impl When {
         match self {
             When::OspLengths => osp_lengths::are_meant(commons),
             When::OspThread => commons.read(loc::THREAD_CYCLE) == ThreadCycle::G71OfAnOsp,
+            When::OspCycles => returns_by(commons, CycleReturnCodes::G71OfAnOsp),
             When::ReturnCodes | When::NotLatheA => Dialect::of(commons) != Dialect::LatheA,
             When::MillTurn => mill_turn::mode(commons).is_some(),
             When::MainSpindle => !mills(commons),
@@ -312,10 +318,10 @@ impl When {
     }
 }
 
-fn returns_by_codes(commons: &Commons) -> bool {
+fn returns_by(commons: &Commons, codes: CycleReturnCodes) -> bool {
     let mut cycles = loc::CYCLE_CODES.iter().filter(|at| **at != loc::CYCLE_TAP_LEFT_CODE);
     cycles.any(|at| commons.read(*at).is_some())
-        && commons.read(loc::CYCLE_RETURN_CODES) != CycleReturnCodes::No
+        && commons.read(loc::CYCLE_RETURN_CODES) == codes
         && commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress
 }
 
@@ -418,7 +424,7 @@ pub fn named(commons: &Commons, dialect: Dialect) -> Vec<(FunctionCode, &'static
         let Some(standard) = row.standard(dialect) else { continue };
         let codes = row.settings.iter().filter_map(|setting| setting.code(commons));
         named.extend(codes.map(|code| (code, row)));
-        if matches!(row.when, When::OspLengths | When::OspThread) {
+        if matches!(row.when, When::OspLengths | When::OspThread | When::OspCycles) {
             named.extend(standard.iter().flat_map(|n| n.codes()).map(|code| (code, row)));
         }
     }

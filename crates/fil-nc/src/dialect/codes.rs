@@ -72,6 +72,8 @@ pub enum Function {
         /// That before the cycle, else the R level.
         initial: bool,
     },
+    /// The word of this block is the level that a hole may return to.
+    ReturnTo,
     /// Plane of arcs, by the index of its normal.
     Plane(usize),
     /// Unit of length.
@@ -193,6 +195,7 @@ impl Function {
             Function::ThreadPasses
             | Function::ThreadPassesByPitch
             | Function::ThreadPassesByHeight
+            | Function::ReturnTo
             | Function::SpeedLimit
             | Function::Dwell
             | Function::MachineFrame
@@ -224,8 +227,15 @@ pub enum Auxiliary {
     Side(Spindle),
     /// A range of spindle speeds, from 1.
     SpindleRange(u8),
-    /// The coolant of this number flows; `None`: it stops.
-    Coolant(Option<u32>),
+    /// The coolant of this number flows.
+    Coolant {
+        /// Its number.
+        code: u32,
+        /// The number that ends it.
+        off: Option<u32>,
+    },
+    /// The coolants that this number ends stop.
+    CoolantOff(u32),
     /// Tool change.
     ToolChange,
     /// End of the program, by this number.
@@ -236,6 +246,11 @@ pub enum Auxiliary {
     Back,
     /// Steers the program in a way that can't be followed.
     Flow,
+    /// The cycle of the block returns to the level said before it, else to R.
+    Returns {
+        /// To that level.
+        to_level: bool,
+    },
     /// Anything else, by its number: no motion of the axes.
     Other(u32),
 }
@@ -257,7 +272,8 @@ impl Auxiliary {
             )
         };
         match (self, other) {
-            (Auxiliary::Coolant(on), Auxiliary::Coolant(other)) => on.is_some() != other.is_some(),
+            (Auxiliary::Coolant { .. }, Auxiliary::CoolantOff(_))
+            | (Auxiliary::CoolantOff(_), Auxiliary::Coolant { .. }) => true,
             _ => turns(self) && turns(other),
         }
     }

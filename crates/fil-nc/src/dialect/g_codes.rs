@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::Settings;
 use super::codes::{CycleKind, FeedMode, Function};
+use super::tables::RETURNS_BY_LEVEL;
 use crate::motion::Compensation;
 
 /// G words by their numbers in tenths.
@@ -205,6 +206,9 @@ impl Functions {
         }
         for (code, kind) in STANDARD_CYCLES {
             self.add(Some(*code), Function::Cycle(*kind, dwells(*code)));
+        }
+        if settings.code("cycle.return_codes") == Some(RETURNS_BY_LEVEL) {
+            return self.add(Some(71), Function::ReturnTo);
         }
         for (key, initial) in
             [("cycle.return_initial_code", true), ("cycle.return_clear_code", false)]

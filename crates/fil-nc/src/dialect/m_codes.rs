@@ -4,21 +4,23 @@ use std::collections::HashMap;
 
 use super::Settings;
 use super::codes::Auxiliary;
+use super::tables::RETURNS_BY_LEVEL;
 use crate::motion::Spindle;
 
-/// Settings that name the code of a coolant.
-const COOLANTS: [&str; 11] = [
-    "coolant.flood_medium_code",
-    "coolant.thru_medium_code",
-    "coolant.tap_code",
-    "coolant.air_code",
-    "coolant.flood_code",
-    "coolant.mist_code",
-    "coolant.default_code",
-    "coolant.flood_high_code",
-    "coolant.flood_low_code",
-    "coolant.thru_high_code",
-    "coolant.thru_low_code",
+/// Settings that name the code of a coolant, and the one that ends it where that is not
+/// `coolant.off_code`.
+const COOLANTS: [(&str, Option<&str>); 11] = [
+    ("coolant.flood_medium_code", None),
+    ("coolant.thru_medium_code", Some("coolant.thru_off_code")),
+    ("coolant.tap_code", Some("coolant.tap_off_code")),
+    ("coolant.air_code", Some("coolant.air_off_code")),
+    ("coolant.flood_code", None),
+    ("coolant.mist_code", Some("coolant.mist_off_code")),
+    ("coolant.default_code", None),
+    ("coolant.flood_high_code", None),
+    ("coolant.flood_low_code", None),
+    ("coolant.thru_high_code", Some("coolant.thru_off_code")),
+    ("coolant.thru_low_code", Some("coolant.thru_off_code")),
 ];
 
 /// M words by their numbers.
@@ -42,7 +44,6 @@ impl Auxiliaries {
             ("mill_turn.live_cw_code", A::Live(Spindle::Clockwise)),
             ("mill_turn.live_ccw_code", A::Live(Spindle::Counterclockwise)),
             ("mill_turn.live_stop_code", A::Live(Spindle::Off)),
-            ("coolant.off_code", A::Coolant(None)),
             ("tool.change_code", A::ToolChange),
         ];
         // A turret turns by its T word: what else that function does nobody knows.
@@ -79,9 +80,16 @@ impl Auxiliaries {
                 table.entry(i64::from(code)).or_insert(A::Side(turn));
             }
         }
-        for code in COOLANTS.iter().filter_map(|key| settings.code(key)) {
-            let flows = A::Coolant(Some(code.unsigned_abs()));
-            table.entry(i64::from(code)).or_insert(flows);
+        let number = |key| settings.code(key).map(i32::unsigned_abs);
+        let usual = number("coolant.off_code");
+        for (key, own) in COOLANTS {
+            let off = own.and_then(number).or(usual);
+            if let Some(code) = number(key) {
+                table.entry(i64::from(code)).or_insert(A::Coolant { code, off });
+            }
+            if let Some(off) = off {
+                table.entry(i64::from(off)).or_insert(A::CoolantOff(off));
+            }
         }
         let ends = ["program.end_code", "program.rewind_code"].map(|key| settings.code(key));
         for code in ends.into_iter().flatten().chain([2, 30]) {
@@ -92,6 +100,10 @@ impl Auxiliaries {
         }
         for code in [96, 97, 198] {
             table.entry(code).or_insert(A::Flow);
+        }
+        if settings.code("cycle.return_codes") == Some(RETURNS_BY_LEVEL) {
+            table.entry(53).or_insert(A::Returns { to_level: true });
+            table.entry(54).or_insert(A::Returns { to_level: false });
         }
         Auxiliaries(table)
     }

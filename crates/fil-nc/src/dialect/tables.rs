@@ -103,6 +103,8 @@ pub(crate) enum Habit {
     LengthsAreFast,
     /// Holes return to the level before the cycle, where the program does not name one.
     ReturnsInitial,
+    /// An OSP: holes return to the level of G71 by M53, or to R by M54.
+    ReturnsByLevel,
     /// TRANS of a SINUMERIK is the translation of the CL file, so that positions count from
     /// where the zero was before.
     Translates,
@@ -113,7 +115,7 @@ pub(crate) enum Habit {
 }
 
 /// Habits that one setting says: by which of its values.
-const HABITS: [(Habit, &str, &[i32]); 10] = [
+const HABITS: [(Habit, &str, &[i32]); 11] = [
     (Habit::Transforms, "mill_turn.transformations", ON),
     (Habit::TipControlAnywhere, "rotary.tip_control", &[1]),
     (Habit::RadiusModal, "circle.radius_modal", ON),
@@ -122,9 +124,13 @@ const HABITS: [(Habit, &str, &[i32]); 10] = [
     (Habit::ThreadsNeedTurns, "thread.cycle", &[3]),
     (Habit::LengthsAreFast, "tool.length_const", ON),
     (Habit::ReturnsInitial, "cycle.return_codes", &[2]),
+    (Habit::ReturnsByLevel, "cycle.return_codes", &[RETURNS_BY_LEVEL]),
     (Habit::Translates, "control.translation", &[1]),
     (Habit::NamesTools, "control.tool_call", &[2]),
 ];
+
+/// `cycle.return_codes` of a control whose cycles return by G71, M53 and M54.
+pub(super) const RETURNS_BY_LEVEL: i32 = 3;
 
 /// The values of a flag that is on.
 pub(super) const ON: &[i32] = &[1, 71];

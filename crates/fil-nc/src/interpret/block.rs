@@ -129,6 +129,10 @@ impl State<'_> {
                 }
                 return self.machine_frame(words);
             }
+            Some(Function::ReturnTo) => {
+                words.function(Group::Once);
+                return self.return_level(words);
+            }
             Some(Function::ThreadPasses) => {
                 words.function(Group::Once);
                 self.motion = None;

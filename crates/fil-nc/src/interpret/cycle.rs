@@ -3,7 +3,7 @@
 use super::Fault;
 use super::state::State;
 use super::words::{AxisWord, Words, letter};
-use crate::dialect::{Amount, CycleKind, DepthForm, Role};
+use crate::dialect::{Amount, Auxiliary, CycleKind, DepthForm, Habit, Role};
 use crate::errors::NcCode;
 use crate::motion::{Course, Event, Spindle};
 
@@ -89,7 +89,46 @@ impl State<'_> {
             Some(before) => Cycle { kind, dwells, ..before },
             None => fresh,
         });
+        if self.dialect.has(Habit::ReturnsByLevel) {
+            self.return_by(words)?;
+        }
         self.hole(words)
+    }
+
+    /// G71 of an OSP: the level that holes return to by M53. Nothing moves.
+    pub(super) fn return_level(&mut self, words: &mut Words) -> Result<(), Fault> {
+        let axes = words.take_axes(self.dialect)?;
+        let mut said = axes.iter();
+        let (Some(&AxisWord { axis, value, increment: false }), None) = (said.next(), said.next())
+        else {
+            return no_meaning("G71 needs one position along the tool");
+        };
+        if axis != self.plane || !self.absolute {
+            return no_meaning("G71 needs a position along the tool, in G90");
+        }
+        self.cycle.level = Some(self.position(axis, value));
+        Ok(())
+    }
+
+    /// M53 or M54 in the block of an OSP's cycle: it returns to the level of G71, or to R. Without
+    /// them it returns to the end of the travel, which is not followed.
+    fn return_by(&mut self, words: &Words) -> Result<(), Fault> {
+        let Some(cycle) = &mut self.cycle.active else { return Ok(()) };
+        let returns = words.auxiliaries.iter().filter_map(|(auxiliary, _)| match auxiliary {
+            Auxiliary::Returns { to_level } => Some(*to_level),
+            _ => None,
+        });
+        let [to_level] = returns.collect::<Vec<_>>()[..] else {
+            return no_meaning("a cycle needs M53 or M54 in its block");
+        };
+        if to_level {
+            let Some(level) = self.cycle.level else {
+                return no_meaning("M53 needs a G71 before it");
+            };
+            (cycle.initial, cycle.initial_known) = (level, true);
+        }
+        self.cycle.returns_initial = to_level;
+        if self.absolute { Ok(()) } else { no_meaning("a cycle in G91 is not followed here") }
     }
 
     /// A hole of the cycle in force.
@@ -207,6 +246,10 @@ impl State<'_> {
         self.modes.spindle.turn = turning;
         Ok(())
     }
+}
+
+fn no_meaning<T>(why: &str) -> Result<T, Fault> {
+    Err(Fault::new(NcCode::NoMeaning, why))
 }
 
 /// How the spindle turns on the way out of a tap, which the cycle says and not the way it

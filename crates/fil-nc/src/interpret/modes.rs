@@ -204,7 +204,8 @@ impl State<'_> {
                     self.modes.spindle.orientation = orientation;
                 }
                 Auxiliary::SpindleRange(range) => self.modes.spindle.range = Some(*range),
-                Auxiliary::Coolant(on) => self.cool(*on),
+                Auxiliary::Coolant { code, .. } => self.cool(Some(*code)),
+                Auxiliary::CoolantOff(code) => self.cool_off(*code),
                 _ => {}
             }
         }
@@ -240,6 +241,15 @@ impl State<'_> {
     pub(super) fn cool(&mut self, coolant: Option<u32>) {
         self.modes.coolant = coolant;
         self.modes.unsaid.coolant = false;
+    }
+
+    /// A function that ends coolants: one with a function of its own goes on.
+    pub(super) fn cool_off(&mut self, code: u32) {
+        let flowing = self.modes.coolant.map(|flowing| self.dialect.auxiliary(i64::from(flowing)));
+        match flowing {
+            Some(Auxiliary::Coolant { off: Some(own), .. }) if own != code => {}
+            _ => self.cool(None),
+        }
     }
 
     /// A change or a stop, where many machines stop spindle and coolant.

@@ -53,6 +53,8 @@ pub(super) struct ActiveCycle {
     pub(super) at_each: bool,
     /// Holes return to the level before the cycle.
     pub(super) returns_initial: bool,
+    /// The level of G71 of an OSP, along the plane's normal.
+    pub(super) level: Option<f64>,
 }
 
 /// How the head and the tables hold the tool.

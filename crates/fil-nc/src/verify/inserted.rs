@@ -176,7 +176,8 @@ impl Expected {
             Auxiliary::Live(turns) => spindle.turn_now(Some(turns)),
             Auxiliary::Orient => spindle.turn_now(None),
             Auxiliary::SpindleRange(range) => spindle.range = Some(range),
-            Auxiliary::Coolant(code) => self.coolant.require(code, Due::Now),
+            Auxiliary::Coolant { code, .. } => self.coolant.require(Some(code), Due::Now),
+            Auxiliary::CoolantOff(_) => self.coolant.require(None, Due::Now),
             _ => {}
         }
     }

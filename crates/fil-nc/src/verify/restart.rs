@@ -61,7 +61,8 @@ impl Restarts {
             Auxiliary::SpindleOff | Auxiliary::Live(_) | Auxiliary::Orient => {
                 self.spindle.was_on = None;
             }
-            Auxiliary::Coolant(code) => self.coolant = by_record(code.is_some()),
+            Auxiliary::Coolant { .. } => self.coolant = by_record(true),
+            Auxiliary::CoolantOff(_) => self.coolant = by_record(false),
             Auxiliary::CAxis(..)
             | Auxiliary::Counts(_)
             | Auxiliary::Side(_)

@@ -236,7 +236,7 @@ fn without_return_code(
     hole: &mut Hole,
 ) -> Result<Option<f64>> {
     let control = &mut post.control;
-    let says_it = control.commons.read(loc::CYCLE_RETURN_CODES) == CycleReturnCodes::Yes
+    let says_it = control.commons.read(loc::CYCLE_RETURN_CODES) != CycleReturnCodes::No
         || control.can().cycles_say_return;
     if says_it || (hole.initial - hole.clear).abs() <= SAME_LEVEL {
         return Ok(None);

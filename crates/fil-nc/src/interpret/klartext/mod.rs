@@ -279,7 +279,8 @@ impl Klartext<'_> {
             Auxiliary::Clockwise => self.state.turn_spindle(Spindle::Clockwise),
             Auxiliary::Counterclockwise => self.state.turn_spindle(Spindle::Counterclockwise),
             Auxiliary::SpindleOff | Auxiliary::Orient => self.state.turn_spindle(Spindle::Off),
-            Auxiliary::Coolant(on) => self.state.cool(on),
+            Auxiliary::Coolant { code, .. } => self.state.cool(Some(code)),
+            Auxiliary::CoolantOff(code) => self.state.cool_off(code),
             Auxiliary::End(code) => {
                 self.end_code = Some(code);
                 return Ok(After::Ends);

@@ -413,7 +413,8 @@ impl Sinumerik<'_> {
                 // The spindle stands and becomes an axis.
                 Auxiliary::Other(70) => state.turn_spindle(Spindle::Off),
                 Auxiliary::SpindleRange(range) => state.modes.spindle.range = Some(*range),
-                Auxiliary::Coolant(on) => state.cool(*on),
+                Auxiliary::Coolant { code, .. } => state.cool(Some(*code)),
+                Auxiliary::CoolantOff(code) => state.cool_off(*code),
                 _ => {}
             }
         }

@@ -154,7 +154,15 @@ impl Settings<'_> {
         if !self.switches_off_at_change() {
             return Vec::new();
         }
-        let codes = [loc::COOLANT_OFF_CODE, loc::SPINDLE_STOP_CODE, loc::MILL_TURN_LIVE_STOP_CODE];
+        let codes = [
+            loc::COOLANT_OFF_CODE,
+            loc::COOLANT_MIST_OFF_CODE,
+            loc::COOLANT_THRU_OFF_CODE,
+            loc::COOLANT_AIR_OFF_CODE,
+            loc::COOLANT_TAP_OFF_CODE,
+            loc::SPINDLE_STOP_CODE,
+            loc::MILL_TURN_LIVE_STOP_CODE,
+        ];
         let codes = codes.into_iter().filter_map(|at| self.commons.read(at));
         codes.map(|code| format!("M{code}")).collect()
     }

@@ -17,11 +17,31 @@ pub fn write(control: &mut Control, coolant: Coolant) -> Result<()> {
         Coolant::Off => return off(control),
         Coolant::On(kind, pressure) => of_the_machine(control, kind, pressure),
     };
-    let changes = control.coolant.is_some_and(|before| before != at);
-    if changes && control.commons.read(loc::COOLANT_PRINT_OFF) {
+    let before = control.coolant.filter(|before| *before != at);
+    let ends = before.is_some_and(|before| {
+        let [before, now] = [before, at].map(|at| off_code(control, Some(at)));
+        before != now || control.commons.read(loc::COOLANT_PRINT_OFF)
+    });
+    if ends {
         write_off(control)?;
     }
     switch_on(control, at)
+}
+
+/// Codes of coolants, and the code that ends each where it is not that of all.
+const OWN_OFF_CODES: [(CodeAt, CodeAt); 6] = [
+    (loc::COOLANT_MIST_CODE, loc::COOLANT_MIST_OFF_CODE),
+    (loc::COOLANT_THRU_LOW_CODE, loc::COOLANT_THRU_OFF_CODE),
+    (loc::COOLANT_THRU_MEDIUM_CODE, loc::COOLANT_THRU_OFF_CODE),
+    (loc::COOLANT_THRU_HIGH_CODE, loc::COOLANT_THRU_OFF_CODE),
+    (loc::COOLANT_AIR_CODE, loc::COOLANT_AIR_OFF_CODE),
+    (loc::COOLANT_TAP_CODE, loc::COOLANT_TAP_OFF_CODE),
+];
+
+/// The code that ends a coolant: its own, where the machine has one.
+fn off_code(control: &Control, of: Option<CodeAt>) -> CodeAt {
+    let own = OWN_OFF_CODES.iter().find(|(on, _)| Some(*on) == of).map(|(_, off)| *off);
+    own.filter(|at| control.code_if_any(*at).is_some()).unwrap_or(loc::COOLANT_OFF_CODE)
 }
 
 /// Switches a coolant on by its code.
@@ -37,7 +57,6 @@ pub(crate) fn switch_on(control: &mut Control, at: CodeAt) -> Result<()> {
 }
 
 fn off(control: &mut Control) -> Result<()> {
-    control.coolant = None;
     control.tools.coolant = None;
     write_off(control)
 }
@@ -45,7 +64,8 @@ fn off(control: &mut Control) -> Result<()> {
 /// Ends the coolant at once, after all that still waits for a motion.
 fn write_off(control: &mut Control) -> Result<()> {
     control.flush_waiting()?;
-    add(control, loc::COOLANT_OFF_CODE);
+    let flows = control.coolant.take();
+    add(control, off_code(control, flows));
     control.write_block()
 }
 

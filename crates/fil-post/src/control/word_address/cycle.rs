@@ -151,7 +151,7 @@ fn write_hole(
     }
     modes::plane_of_its_own(control, Plane::across(hole.along))?;
     control.because(cycle.cause, |control| rigid_mode(control, cycle))?;
-    control.because(cycle.cause, |control| codes(control, code, hole))?;
+    control.because(cycle.cause, |control| codes(control, cycle, code, hole))?;
     for number in AxisSet::LINEAR.numbers().filter(|number| *number != hole.along) {
         motion::axis_word(control, number, &across)?;
     }
@@ -316,20 +316,48 @@ fn across(along: usize) -> AxisSet {
 }
 
 /// The level to return to and the cycle.
-fn codes(control: &mut Control, cycle: FunctionCode, hole: &Hole) -> Result<()> {
-    if control.commons.read(loc::CYCLE_RETURN_CODES) == CycleReturnCodes::Yes {
-        let at = if hole.to_initial {
-            loc::CYCLE_RETURN_INITIAL_CODE
-        } else {
-            loc::CYCLE_RETURN_CLEAR_CODE
-        };
-        let code = control.code(at, "the return level")?;
-        let modal = control.commons.read(loc::CYCLE_RETURN_MODAL);
-        if !modal || !control.state.is(modal::RETURN_LEVEL, code) {
-            control.g(code);
+fn codes(control: &mut Control, cycle: &Cycle, code: FunctionCode, hole: &Hole) -> Result<()> {
+    match control.commons.read(loc::CYCLE_RETURN_CODES) {
+        CycleReturnCodes::No => {}
+        CycleReturnCodes::Yes => {
+            let at = if hole.to_initial {
+                loc::CYCLE_RETURN_INITIAL_CODE
+            } else {
+                loc::CYCLE_RETURN_CLEAR_CODE
+            };
+            let level = control.code(at, "the return level")?;
+            let modal = control.commons.read(loc::CYCLE_RETURN_MODAL);
+            if !modal || !control.state.is(modal::RETURN_LEVEL, level) {
+                control.g(level);
+            }
         }
+        CycleReturnCodes::G71OfAnOsp if hole.to_initial => {
+            if cycle.in_force.is_none_or(|last| !last.to_initial || last.initial != hole.initial) {
+                return_level(control, hole)?;
+            }
+            control.m(M53);
+        }
+        CycleReturnCodes::G71OfAnOsp => control.m(M54),
     }
-    control.g(cycle);
+    control.g(code);
+    Ok(())
+}
+
+/// G71, M53 and M54 of an OSP: the level that cycles return to, and whether they do, or return to R.
+const G71: FunctionCode = FunctionCode::whole(71);
+const M53: FunctionCode = FunctionCode::whole(53);
+const M54: FunctionCode = FunctionCode::whole(54);
+
+/// Writes the block of G71. The tool stays where it is.
+fn return_level(control: &mut Control, hole: &Hole) -> Result<()> {
+    let axis = *control.tables.axis(hole.along);
+    let before = control.commons.last_output(axis.letter);
+    let waiting = control.block.take();
+    control.g(G71);
+    control.word(axis.letter, axis.value(hole.initial)?)?;
+    control.write_block()?;
+    control.block = waiting;
+    control.commons.set_last_output(axis.letter, before);
     Ok(())
 }
 
