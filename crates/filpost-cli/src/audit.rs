@@ -10,6 +10,7 @@ use filpost::nc::source::Source;
 use filpost::{Diag, Error, Program, Run, files};
 
 use crate::errors::CommandCode;
+use crate::output;
 use crate::summary::counted;
 
 /// Program and line map of a run once more, in nameless files.
@@ -39,7 +40,7 @@ impl Copies {
     /// # Errors
     /// E0702: the system has no room for temporary files.
     pub fn new() -> Result<Self, Error> {
-        let file = || tempfile::tempfile().map(BufWriter::new).map_err(|error| cant(&error));
+        let file = || output::temporary_file().map(BufWriter::new).map_err(|error| cant(&error));
         Ok(Copies { nc: file()?, map: file()? })
     }
 

@@ -25,7 +25,7 @@ pub fn run(args: &ClArgs, cl: &Path) -> Result<Status, Error> {
     let converted = Target::new(args.output.as_deref()).write(|out| {
         let named = args.output.as_deref().unwrap_or(Path::new(output::STANDARD_OUTPUT));
         let cant = |error: io::Error| files::cant_write(named, &error);
-        let mut spool = tempfile::tempfile().map_err(cant)?;
+        let mut spool = output::temporary_file().map_err(cant)?;
         let converted = to_ncl(input, &name, options, unit, &mut spool).map_err(Error::Run)?;
         spool.rewind().and_then(|()| io::copy(&mut spool, out)).map_err(cant)?;
         Ok(converted)

@@ -53,7 +53,7 @@ impl Target {
         match self {
             Target::File(path) => NewFile::create(&path).map(Staged::File),
             stream => {
-                let spool = tempfile::tempfile();
+                let spool = temporary_file();
                 let spool = spool.map_err(|error| files::cant_write(stream.path(), &error))?;
                 Ok(Staged::Stream(BufWriter::with_capacity(BUFFER, spool), stream))
             }
@@ -226,13 +226,30 @@ fn is_device(path: &Path) -> bool {
         || path.metadata().is_ok_and(|found| !found.is_file())
 }
 
+/// A nameless file: in the folder of temporary files, or in the current folder where that is
+/// missing or can't be written.
+///
+/// # Errors
+/// Neither folder takes a file.
+pub fn temporary_file() -> io::Result<File> {
+    tempfile::tempfile().or_else(|error| {
+        let folder = std::env::temp_dir();
+        tempfile::tempfile_in(".").map_err(|_| {
+            io::Error::new(
+                error.kind(),
+                format!("no temporary file in {}: {error}", folder.display()),
+            )
+        })
+    })
+}
+
 /// Reads standard input into a nameless file, so that it can be read again.
 ///
 /// # Errors
 /// E0701
 pub fn spool_stdin() -> Result<File, Error> {
     let spool = || {
-        let mut file = tempfile::tempfile()?;
+        let mut file = temporary_file()?;
         io::copy(&mut io::stdin().lock(), &mut file)?;
         file.rewind()?;
         Ok(file)
@@ -257,7 +274,7 @@ pub fn open(path: &Path) -> Result<File, Error> {
     if kind.is_file() {
         return Ok(file);
     }
-    let mut spool = tempfile::tempfile().map_err(cant)?;
+    let mut spool = temporary_file().map_err(cant)?;
     io::copy(&mut file, &mut spool).map_err(cant)?;
     spool.rewind().map_err(cant)?;
     Ok(spool)

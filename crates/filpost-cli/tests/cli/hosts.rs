@@ -1,6 +1,6 @@
 //! What a run may do to the files of its host.
 
-use crate::support::{Folder, SMALL, WRONG};
+use crate::support::{Folder, Ran, SMALL, WRONG};
 
 /// Names in the folder, sorted.
 fn names(place: &Folder) -> Vec<String> {
@@ -15,6 +15,15 @@ fn names(place: &Folder) -> Vec<String> {
 
 fn text(place: &Folder, name: &str) -> String {
     std::fs::read_to_string(place.0.path().join(name)).expect("a text")
+}
+
+#[test]
+fn a_system_without_a_folder_for_temporary_files_does_not_matter() {
+    let place = Folder::new().with("part.ncl", SMALL);
+    let mut command = place.command(&["post", "part.ncl"]);
+    let ran = Ran::of(command.env("TMPDIR", "/no/such/folder").output().expect("the command"));
+    assert_eq!((ran.status, ran.out.as_str()), (0, place.run(&["post", "part.ncl"]).out.as_str()));
+    assert_eq!(names(&place), ["part.ncl"]);
 }
 
 #[test]
