@@ -24,6 +24,16 @@ fn subjects_are_explained() {
         ("m08", "Standard code for coolant"),
         ("retract", "home.retract_z"),
         ("trunnion", "haas-trunnion"),
+        ("tool length offset", "TLO (G43 H, G49)"),
+        ("sub-spindles", "SPINDL with SIDE"),
+        ("block delete", "OPSKIP"),
+        ("feedrate", "FEDRAT"),
+        ("cutter comp", "CUTCOM"),
+        ("H", "offset number"),
+        ("G43 H1", "the tool length offset"),
+        ("tool direction zero", "tool.axis_k"),
+        ("stopped spindle", "E0534"),
+        ("verify", "filpost verify --help"),
     ] {
         let ran = place.run(&["explain", subject]);
         assert_eq!(ran.status, 0, "{subject}: {ran:?}");
@@ -46,7 +56,7 @@ fn every_code_is_explained() {
 #[test]
 fn no_markdown_is_printed() {
     let place = Folder::new();
-    for subject in ["haas-mill", "fanuc-mill-turn", "CYCLE", "SPINDL", "THREAD"] {
+    for subject in ["haas-mill", "fanuc-mill-turn", "CYCLE", "SPINDL", "THREAD", "tapping", "TLO"] {
         let ran = place.run(&["explain", subject]);
         for sign in ["](", "```", "|---", "\n#"] {
             assert!(!ran.out.contains(sign), "{subject}: `{sign}` in {}", ran.out);

@@ -1,9 +1,10 @@
 //! What a code, a setting, a word, a function, a location, a G or M code, a ready post or an option
-//! of one means: the texts of `filpost explain`.
+//! of one means, and a term of the trade: the texts of `filpost explain`.
 
 mod nc_function;
 mod option;
 mod plain;
+mod term;
 
 use fil_cl::Vocabulary;
 use fil_diag::{Code, CodeKind, suggest};
@@ -18,7 +19,7 @@ use crate::ready::{self, READY};
 use crate::word_pages;
 
 /// What a subject means, `E0501`, `rapid.split`, `CYCLE`, `POSTF 13`, `INTCOM 1861`, `G83`,
-/// `haas-mill`, `preload`, or part of a name; `None` for an unknown one. `further` are codes
+/// `haas-mill`, `preload`, `tool length offset`, or part of a name; `None` for an unknown one. `further` are codes
 /// besides those of [`crate::all_codes`].
 ///
 /// ```
@@ -28,12 +29,28 @@ use crate::word_pages;
 pub fn explain(subject: &str, further: &[Code]) -> Option<String> {
     let text = match words(subject)[..] {
         [word] => one(word, further),
-        [table, number] => numbered(table, number).or_else(|| function(table)),
+        [table, number] => numbered(table, number).or_else(|| several(subject, table, further)),
         [name, number, ..] if name.eq_ignore_ascii_case("POSTF") => numbered(name, number),
-        [name, ..] => function(name),
+        [name, ..] => several(subject, name, further),
         [] => None,
     };
     text.map(|text| text.trim_end().to_string())
+}
+
+/// What several words mean together; else what the first of them means as a function or a code:
+/// `SCALF(x)`, `G43 H1`.
+fn several(subject: &str, first: &str, further: &[Code]) -> Option<String> {
+    let term = term::explain(subject).or_else(|| term::explain_part(subject));
+    let mut parts: Vec<String> = term.into_iter().collect();
+    parts.extend(function(first).or_else(|| nc_function::explain(first)));
+    if parts.is_empty() {
+        parts.extend(term::search(subject, &codes_and(further)));
+    }
+    (!parts.is_empty()).then(|| parts.join("\n\n"))
+}
+
+fn codes_and(further: &[Code]) -> Vec<&Code> {
+    crate::all_codes().into_iter().chain(further).collect()
 }
 
 /// The parts of a subject, such as `POSTF(13,2)` or `INTCOM 1861`.
@@ -63,11 +80,16 @@ fn one(word: &str, further: &[Code]) -> Option<String> {
     parts.extend(ready::find(word).map(|post| plain::text(post.readme())));
     parts.extend(nc_function::explain(word));
     if parts.is_empty() {
+        parts.extend(term::explain(word));
         parts.extend(vocabulary_word(word));
     }
     parts.extend(group(word));
     if parts.is_empty() {
-        parts.extend(part_of_names(word));
+        parts.extend(term::explain_part(word));
+    }
+    let has_settings = parts.iter().any(|part| part.contains("Settings"));
+    if parts.is_empty() || !has_settings && vocabulary_word(word).is_none() {
+        parts.extend(part_of_names(word, further));
     }
     parts.extend(option::explain(&word.to_ascii_lowercase()));
     (!parts.is_empty()).then(|| parts.join("\n\n"))
@@ -161,7 +183,7 @@ fn code_text(code: &Code) -> String {
 fn postf(row: &PostfInfo) -> String {
     let arguments: Vec<String> = row.arguments.iter().map(|name| format!(",{name}")).collect();
     format!(
-        "POSTF({}{})\n\n{}\n\n{}\nName in a compat file: {}",
+        "POSTF({}{})\n\n{}{}\n\nName in a compat file: {}",
         row.number,
         arguments.concat(),
         sentence(row.doc),
@@ -172,7 +194,7 @@ fn postf(row: &PostfInfo) -> String {
 
 fn statement(word: &str) -> Option<String> {
     let row = STATEMENTS.iter().find(|row| row.word.eq_ignore_ascii_case(word))?;
-    Some(format!("{}\n\n{}\n\n{}", row.form, row.doc, grade(row.grade)))
+    Some(format!("{}\n\n{}{}", row.form, sentence(row.doc), grade(row.grade)))
 }
 
 fn function(name: &str) -> Option<String> {
@@ -181,20 +203,24 @@ fn function(name: &str) -> Option<String> {
             .iter()
             .map(|row| format!("{:>4}  {}  {}", row.number, row.grade.letter(), row.doc))
             .collect();
-        let legend = "P published, I inferred from published scripts, O our own reading";
-        return Some(format!("POSTF(n,…): talks to the post.\n\n{}\n\n{legend}", rows.join("\n")));
+        let legend =
+            "P published, I inferred from published scripts, O the reading of filpost alone";
+        return Some(format!(
+            "POSTF(n,…): reads and changes records, settings and last output values.\n\n{}\n\n{legend}",
+            rows.join("\n")
+        ));
     }
     let row = BUILTINS.iter().find(|row| row.name.eq_ignore_ascii_case(name))?;
     let extension =
         if row.extension { "\nAn extension of filpost, refused under --strict." } else { "" };
-    Some(format!("{}\n\n{}\n\n{}{extension}", row.call(), sentence(row.doc), grade(row.grade)))
+    Some(format!("{}\n\n{}{}{extension}", row.call(), sentence(row.doc), grade(row.grade)))
 }
 
+/// What a reader has to know of a reading that no public source has.
 fn grade(grade: Grade) -> &'static str {
     match grade {
-        Grade::Published => "Grade: published in a script or listing.",
-        Grade::Inferred => "Grade: inferred from published scripts.",
-        Grade::Own => "Grade: our own reading; not published.",
+        Grade::Published | Grade::Inferred => "",
+        Grade::Own => "\n\nNo public source documents it: this is the reading of filpost.",
     }
 }
 
@@ -212,11 +238,11 @@ fn location(row: &Location) -> String {
         text.push_str(&format!("  {number} = {meaning}\n"));
     }
     let used = match (row.used, row.idle) {
-        (true, _) => "The post acts on it.".to_string(),
-        (false, "") => "The post does not act on it.".to_string(),
-        (false, reason) => format!("The post does not act on it: {reason}"),
+        (true, _) => String::new(),
+        (false, "") => "It has no effect.".to_string(),
+        (false, reason) => format!("It has no effect: {reason}"),
     };
-    text.push_str(&format!("Evidence: {}\n{used}", row.evidence));
+    text.push_str(used.as_str());
     text
 }
 
@@ -230,21 +256,21 @@ fn vocabulary_word(name: &str) -> Option<String> {
     let id = vocabulary.find(name).filter(|id| vocabulary.is_known(*id))?;
     let class = if vocabulary.is_major(id) { "major word" } else { "minor word" };
     let code = if vocabulary.is_public(id) {
-        format!("Code {} in the published tables.", vocabulary.code(id))
+        format!(", code {}", vocabulary.code(id))
     } else {
-        "No published code.".into()
+        String::new()
     };
     let handled = dispatch::HANDLERS.iter().any(|(word, _)| *word == id);
     let post = match (vocabulary.is_major(id), handled) {
-        (_, true) => "The post carries it out.",
-        (true, false) => "The post does not know it: a FIL section must take it.",
-        (false, false) => "It is used inside statements.",
+        (_, true) => "",
+        (true, false) => "\n\nThe post has no handler for it: a FIL section must take it.",
+        (false, false) => "\n\nA word inside statements.",
     };
     let page = word_pages::page(name).map_or_else(String::new, |page| {
         let (_, text) = page.split_once("\n\n").unwrap_or_default();
         format!("\n\n{}", plain::text(text))
     });
-    Some(format!("{}  {class}\n\n{code}\n{post}{page}", vocabulary.name(id)))
+    Some(format!("{}  {class}{code}{post}{page}", vocabulary.name(id)))
 }
 
 /// The settings of a group such as `rapid`.
@@ -258,31 +284,31 @@ fn group(prefix: &str) -> Option<String> {
     (!rows.is_empty()).then(|| format!("Settings:\n{}", rows.join("\n")))
 }
 
-/// The settings and ready posts with a text in their name, or settings with it in their meaning.
-fn part_of_names(part: &str) -> Option<String> {
-    let part = part.to_ascii_lowercase();
-    if part.len() < 3 {
+/// The ready posts with a text in their name, and the settings and codes with it.
+fn part_of_names(part: &str, further: &[Code]) -> Option<String> {
+    let lower = part.to_ascii_lowercase();
+    if lower.len() < 3 {
         return None;
     }
     let posts: Vec<&str> =
-        READY.iter().map(|post| post.name).filter(|name| name.contains(&part)).collect();
-    let line = |row: &Location| format!("{:<28} {}", row.name, row.meaning);
-    let named: Vec<String> =
-        TABLE.iter().filter(|row| row.name.contains(&part)).map(line).collect();
-    let meant = TABLE.iter().filter(|row| row.meaning.to_ascii_lowercase().contains(&part));
-    let rows = if named.is_empty() { meant.map(line).collect() } else { named };
+        READY.iter().map(|post| post.name).filter(|name| name.contains(&lower)).collect();
     let mut text = Vec::new();
     if !posts.is_empty() {
         text.push(format!("Ready posts: {}", posts.join(", ")));
     }
-    if !rows.is_empty() {
-        text.push(format!("Settings with `{part}`:\n{}", rows.join("\n")));
-    }
+    text.extend(term::search(part, &codes_and(further)).or_else(|| settings_named(&lower)));
     (!text.is_empty()).then(|| text.join("\n\n"))
 }
 
+/// The settings with a text anywhere in their name.
+fn settings_named(part: &str) -> Option<String> {
+    let named = TABLE.iter().filter(|row| row.name.contains(part));
+    let rows: Vec<String> = named.map(|row| format!("{:<28} {}", row.name, row.meaning)).collect();
+    (!rows.is_empty()).then(|| format!("Settings with `{part}`:\n{}", rows.join("\n")))
+}
+
 fn sentence(doc: &str) -> String {
-    let mut characters = doc.chars();
+    let mut characters = doc.trim_end_matches('.').chars();
     let first = characters.next().map(|first| first.to_uppercase().to_string());
     format!("{}{}.", first.unwrap_or_default(), characters.as_str())
 }
