@@ -57,22 +57,33 @@ fn examples(text: &str) -> Vec<Example<'_>> {
     examples
 }
 
-/// The rows of compat.md that say what a post word does, each with its grade; of `WORD: part`
-/// the part stands before.
-fn rows(compat: &str, word: &str) -> Vec<(String, String)> {
-    let wanted = |cell: &str| cell == word || cell.starts_with(&format!("{word}, "));
-    let part_of = |cell: &str| cell.strip_prefix(&format!("{word}: ")).map(str::to_string);
-    compat
-        .lines()
-        .filter_map(|line| {
-            let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
-            let [name, does, grade, ..] = cells[..] else { return None };
-            if wanted(name) {
-                return Some((does.to_string(), grade.to_string()));
+/// What the rows of compat.md say of a post word: of `WORD: part` the part comes first, of `WORD
+/// in a case` the whole name, of a row of a family of controls its name.
+fn rows(compat: &str, word: &str) -> Vec<String> {
+    let mut family = "";
+    let mut found = Vec::new();
+    for line in compat.lines() {
+        if let Some(heading) = line.strip_prefix("## ") {
+            family = if ["Klartext", "SINUMERIK"].contains(&heading) { heading } else { "" };
+        }
+        let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
+        let [name, does, ..] = cells[..] else { continue };
+        let Some(rest) = name.split(", ").find_map(|part| part.strip_prefix(word)) else {
+            continue;
+        };
+        let is_list = name.split(", ").all(|part| part.chars().all(|c| c.is_ascii_uppercase()));
+        let part = match rest.strip_prefix(": ") {
+            Some(part) => format!("{part}: "),
+            None if is_list && rest.is_empty() => String::new(),
+            None if name.starts_with(word) && (rest.is_empty() || rest.starts_with(' ')) => {
+                format!("{name}: ")
             }
-            Some((format!("{}: {does}", part_of(name)?), grade.to_string()))
-        })
-        .collect()
+            None => continue,
+        };
+        let family = if family.is_empty() { String::new() } else { format!("{family}: ") };
+        found.push(format!("{family}{part}{does}"));
+    }
+    found
 }
 
 /// The pages by word.
@@ -93,10 +104,9 @@ fn section(example: &Example<'_>, compat: &str) -> String {
     let mut page = String::new();
     if example.form.is_empty() {
         let _ = write!(page, "# {word}\n\n");
-        for (does, grade) in rows(compat, word) {
+        for does in rows(compat, word) {
             // Links count from the folder of the page.
-            let does = does.replace("](", "](../");
-            let _ = writeln!(page, "- {does} ({grade})");
+            let _ = writeln!(page, "- {}", does.replace("](", "](../"));
         }
         page.push_str("\n## Example\n");
     } else {
@@ -109,7 +119,7 @@ fn section(example: &Example<'_>, compat: &str) -> String {
     let first = start.lines().count() as u32 + 1;
     page.push_str(&written(example, &cl, first));
     if example.form.is_empty() {
-        page.push_str("\n## Words by position\n\nAs POSTF(7,n) counts them, for the first record of the example:\n");
+        page.push_str("\n## Words by position\n\nFor POSTF(7,n), in the first record of the example:\n");
     } else {
         page.push_str("\nIts words:\n");
     }
@@ -173,5 +183,5 @@ fn positions(word: &str, cl: &str, first: u32) -> String {
         }
         return table;
     }
-    String::from("| - | the reader makes no record of its own of it |\n")
+    String::from("| - | the reader makes no separate record of it |\n")
 }

@@ -5,7 +5,7 @@ fil_diag::codes! {
     pub enum ClCode {
         /// The input could not be read.
         ReadFailed = 401, Error, "CL file cannot be read",
-            "The operating system refused to read on.",
+            "The operating system reported an error while reading the file.",
             "Check that the file exists, is readable and is not being written.";
         /// Bytes that no text has.
         BinaryData = 402, Error, "not a CL text file",
@@ -53,7 +53,7 @@ fil_diag::codes! {
             "Check the section that made or changed the record.";
         /// The output could not be written.
         WriteFailed = 413, Error, "CL file cannot be written",
-            "The operating system refused to write on.",
+            "The operating system reported an error while writing the file.",
             "Check the disk space and the permissions.";
         /// A last line that has no end.
         LineCutOff = 414, Error, "last line may be cut off",

@@ -250,7 +250,7 @@ fn rotary_feeds(commons: &Commons, found: &mut Vec<Diag>) {
 
 /// The zero that TRANS shifts does not turn with the part.
 fn translation(commons: &Commons, found: &mut Vec<Diag>) {
-    let shifts = commons.read(loc::CONTROL_TRANSLATION) == ControlTranslation::ByTrans
+    let shifts = commons.read(loc::CONTROL_TRANSLATION) == ControlTranslation::Trans
         && commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik;
     if shifts && frame_rules::is_scaled(commons) {
         found.push(contradiction(

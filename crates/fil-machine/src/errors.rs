@@ -49,7 +49,7 @@ fil_diag::codes! {
             "Check that the file is an option file (.pNN) and whole.";
         /// Settings that contradict each other.
         Contradiction = 607, Error, "settings contradict each other",
-            "A program made with them would not do what is intended.",
+            "No program can follow both settings.",
             "Correct one of the settings; `filpost machine show --all` lists them.";
         /// The option file of a lathe.
         LatheOptionFile = 608, Error, "option file of a lathe",
@@ -73,7 +73,7 @@ fil_diag::codes! {
             "Correct the declaration; docs/machine.md shows one of each type.";
         /// A setting nobody reads.
         UnusedSetting = 651, Warning, "setting without effect",
-            "Nothing reads this setting: the program is the same without it.",
+            "Nothing reads this setting: the NC program is the same without it.",
             "Remove the setting, or do its work in a FIL section.";
         /// Import of a value we can't be sure of.
         DoubtfulImport = 652, Warning, "imported value of uncertain meaning",

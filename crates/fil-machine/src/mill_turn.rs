@@ -107,7 +107,7 @@ fn check_transformations(commons: &Commons) -> Result<()> {
     if !transforms {
         return Ok(());
     }
-    if commons.read(loc::CONTROL_TRANSLATION) == ControlTranslation::ByTrans {
+    if commons.read(loc::CONTROL_TRANSLATION) == ControlTranslation::Trans {
         return refuse("TRANS of the control (control.translation) and transformations");
     }
     if commons.dbl_opt(loc::SCALE_X) == Some(2.0) {

@@ -318,7 +318,7 @@ mod tests {
 
     #[test]
     fn decimal_numbers_by_rule() {
-        let always = |spec, value| text(3443, spec, TapeDecimalRule::AsTheAddressSays, value);
+        let always = |spec, value| text(3443, spec, TapeDecimalRule::AsTheAddress, value);
         assert_eq!(always(1, 83.0), "83.");
         assert_eq!(always(1, -0.7857), "-.786");
         assert_eq!(always(1, 0.0), "0.");
@@ -334,8 +334,7 @@ mod tests {
 
     #[test]
     fn whole_numbers_by_rule() {
-        let whole =
-            |format, spec, value| text(format, spec, TapeDecimalRule::AsTheAddressSays, value);
+        let whole = |format, spec, value| text(format, spec, TapeDecimalRule::AsTheAddress, value);
         assert_eq!(whole(2020, 100, 0.0), "00");
         assert_eq!(whole(2020, 100, 43.0), "43");
         assert_eq!(whole(4040, 0, 250.0), "250");
@@ -346,14 +345,14 @@ mod tests {
 
     #[test]
     fn inch_uses_the_first_half_of_the_format() {
-        let format = NumberFormat::from_commons(3443, 1, false, TapeDecimalRule::AsTheAddressSays);
+        let format = NumberFormat::from_commons(3443, 1, false, TapeDecimalRule::AsTheAddress);
         assert_eq!((format.whole, format.decimals), (3, 4));
         assert_eq!(format.scale(0.12345).unwrap(), 1235);
     }
 
     #[test]
     fn what_does_not_fit_is_refused() {
-        let format = NumberFormat::from_commons(3443, 1, true, TapeDecimalRule::AsTheAddressSays);
+        let format = NumberFormat::from_commons(3443, 1, true, TapeDecimalRule::AsTheAddress);
         assert_eq!(format.scale(9999.9994).unwrap(), 9_999_999);
         for value in [9999.9996, -10_000.0, f64::NAN, f64::INFINITY] {
             assert_eq!(format.scale(value).unwrap_err().code.name(), "E0501", "{value}");
@@ -375,7 +374,7 @@ mod tests {
             size in 0u64..100_000_000, shift in 0u32..9, decimals in 0u8..8,
             leading: bool, trailing: bool, point: bool, rule in 0..3
         ) {
-            let rule = [TapeDecimalRule::AsTheAddressSays, TapeDecimalRule::PointOnlyIfNeeded, TapeDecimalRule::AtLeastOneDigitAfterThePoint][rule as usize];
+            let rule = [TapeDecimalRule::AsTheAddress, TapeDecimalRule::PointOnlyIfNeeded, TapeDecimalRule::AtLeastOneDigitAfterThePoint][rule as usize];
             let size = size / 10u64.pow(shift);
             let format = NumberFormat { decimals, leading, trailing, point, rule, ..NumberFormat::default() };
             let (mut short, mut long) = (Vec::new(), Vec::new());
@@ -404,7 +403,7 @@ mod tests {
         fn output_reads_back_to_the_rounded_value(
             value in -9999.0f64..9999.0, leading: bool, trailing: bool, plus: bool, rule in 0..3
         ) {
-            let rule = [TapeDecimalRule::AsTheAddressSays, TapeDecimalRule::PointOnlyIfNeeded, TapeDecimalRule::AtLeastOneDigitAfterThePoint][rule as usize];
+            let rule = [TapeDecimalRule::AsTheAddress, TapeDecimalRule::PointOnlyIfNeeded, TapeDecimalRule::AtLeastOneDigitAfterThePoint][rule as usize];
             let spec = 1 + 10 * i32::from(trailing) + 100 * i32::from(leading) + 1000 * i32::from(plus);
             let format = NumberFormat::from_commons(3443, spec, true, rule);
             let scaled = format.scale(value).unwrap();

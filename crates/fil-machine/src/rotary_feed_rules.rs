@@ -78,8 +78,8 @@ fn form(commons: &Commons) -> RotaryFeed {
 fn listed_form(commons: &Commons) -> Option<RotaryFeed> {
     match commons.read(loc::ROTARY_FEED_METHOD) {
         RotaryFeedMethod::NotUsed => None,
-        RotaryFeedMethod::LengthOfTheCombinedMove => Some(RotaryFeed::CombinedWay),
-        RotaryFeedMethod::RotaryPartOnly => Some(RotaryFeed::TurnAlone),
+        RotaryFeedMethod::LengthOfTheCombinedMove => Some(RotaryFeed::AllAxesCombined),
+        RotaryFeedMethod::RotaryPartOnly => Some(RotaryFeed::RotaryAxesAlone),
     }
 }
 

@@ -41,7 +41,7 @@ fil_diag::codes! {
             "Write I, J, K or the radius, and both axes of the plane before the first arc.";
         /// Start and end at different radii.
         ArcRadii = 910, Error, "arc start and end have different radii",
-            "No circle about this center passes through both; a word of the block is wrong or missing.",
+            "No circle about this center passes through both points: a word of the block is wrong or missing.",
             "Check the plane, the end point and the center.";
         /// A function without a word it needs.
         MissingWord = 911, Error, "function lacks a word",
@@ -49,11 +49,11 @@ fil_diag::codes! {
             "Write the word in the block of the function.";
         /// No end of program.
         CutOff = 912, Error, "the program has no end",
-            "A program without an end code may have been cut off.",
+            "A program without an end code (M2, M30, M99) may have been cut off.",
             "Check that the file is complete.";
         /// Blocks after the end.
         AfterEnd = 913, Error, "blocks after the end of the program",
-            "The control never gets there; perhaps two programs are in one file.",
+            "The control never reaches them; the file may hold two programs.",
             "Remove the blocks, or give a subprogram its number.";
         /// A call that leads nowhere, or for ever.
         BadCall = 914, Error, "subprogram call can't be followed",
@@ -65,7 +65,7 @@ fil_diag::codes! {
             "Wait until the program is written, and compare again.";
         /// A line that no control reads.
         LineTooLong = 916, Error, "line of the program is too long",
-            "No control reads a block of more than a million bytes: this is not an NC program, or its line ends are lost.",
+            "No control reads a block of more than a million bytes: this is not an NC program, or its line ends are missing.",
             "Give the NC program with line ends LF, or CR and LF.";
         /// A CL file whose unit nobody says.
         NoUnit = 940, Error, "unit of the CL file is not known",

@@ -21,7 +21,7 @@ fil_diag::codes! {
             "`filpost explain WORD` shows the forms of a post word.";
         /// What the language of the control can't say.
         Family = 560, Error, "the control has no code for this",
-            "This family of controls has no free choice of G codes, no block delete, or no such cycle. filpost does not leave out what the control can't do.",
+            "Klartext and SINUMERIK have fixed functions: no other G codes, no such cycle, or no block delete. filpost does not leave out what the control can't do.",
             "Take the record with a FIL section, and write the blocks with INSERT.";
         /// A missing code.
         NoCode = 507, Error, "the machine has no code for this",
@@ -33,7 +33,7 @@ fil_diag::codes! {
             "Put a FEDRAT before the first GOTO that is not rapid.";
         /// Sequence of cycle.
         CycleForm = 511, Error, "canned cycle with missing or invalid values",
-            "A value of the cycle is missing or invalid.",
+            "The control or the post can't drill the hole without this value.",
             "Give DEPTH, a feed and CLEAR (and STEP for DEEP and BRKCHP).";
         /// No unit.
         NoUnit = 514, Error, "no unit given: mm or inch",
@@ -73,7 +73,7 @@ fil_diag::codes! {
             "Mirror the path and its compensation in the CAM system, or take CUTCOM with a FIL section that writes the side of the mirrored path.";
         /// Compensation that is lost.
         CompensationLost = 521, Doubt, "cutter compensation state is uncertain",
-            "A foreign block may have switched it, and restating the code would start compensation again.",
+            "A foreign block may have switched compensation, and restating the code would start it again.",
             "Put the text before CUTCOM or after CUTCOM / OFF.";
         /// Something in a cycle.
         InCycle = 522, Error, "not allowed in an active cycle",
@@ -93,7 +93,7 @@ fil_diag::codes! {
             "Post with TCPC or tilted work planes, where the control knows both, or make one program for each. For a retract in machine Z, turn the tool upright first, or set home.frame = 1.";
         /// A rotary axis the long way round.
         Unwinding = 524, Error, "rotary axis would unwind while cutting",
-            "The axis limits leave only another rotary solution for this tool axis, and the tool would cut while the axes turn to it.",
+            "Within the axis limits there is only another rotary solution for this tool axis, and the tool would cut while the axes turn to it.",
             "Let the tool retract: set repos.retract_distance with repos.feed_method = 1, or write a macro _REPOS. Or retract in the CL file, or give the axis more travel.";
         /// A limit that nothing leads past.
         NoAlternative = 527, Error, "rotary axis at its limit has no other solution",
@@ -101,7 +101,7 @@ fil_diag::codes! {
             "Set repos.retract_distance, give the axis more travel, or split the path in the CAM system and retract between its parts.";
         /// A pole at feed.
         Pole = 528, Error, "feed move passes a pole of the rotary axes",
-            "Near the direction of a rotary axis the axes turn far for a small change of the tool axis, and the tool tilts out of the plane of its end positions.",
+            "Near the direction of a rotary axis, a small change of the tool axis needs a large rotary move, and the tool tilts out of the plane of its end positions.",
             "Add points there in the CAM system, or keep the tool axis away from the pole. rotary.axis_tolerance is the allowed deviation; 0 switches the check off.";
         /// A retract at a limit.
         Repositioned = 529, Warning, "tool retracts at the limit of a rotary axis",
@@ -185,7 +185,7 @@ fil_diag::codes! {
             "Set spindle.side_master_code and spindle.main_master_code (on a SINUMERIK spindle.side_number), or give feeds per minute. Ignore this if the codes of the sub-spindle make it the master.";
         /// A motion of too many parts.
         TooManyParts = 580, Error, "linearization needs too many segments",
-            "While rotary axes turn, the tip leaves its line; keeping it there, or its feed constant, takes too many blocks. So do the lines of an arc of many turns.",
+            "Keeping the tool tip on its line in a rotary move, or its feed constant, takes too many blocks. An arc of many turns that is written as lines can need too many, too.",
             "Increase LINTOL, rotary.tolerance or circle.chord_tolerance, reduce TIMES, or increase the feed. Check that the part is near the rotary axes.";
         /// A feed a revolution while the machine turns.
         RotaryFeedUnknown = 581, Error, "feed of a rotary move is unknown",
@@ -237,20 +237,20 @@ fil_diag::codes! {
             "Put MODE/MILL or MODE/TURN before it, or take the record with a FIL section.";
         /// A motion that polar interpolation can't make.
         Polar = 562, Error, "not possible in polar interpolation",
-            "Without Y, a live tool along Z mills in the plane of X and C. The mode starts at a rapid move, and the spindle can't jump by half a turn where the path crosses its axis.",
-            "Put RAPID before the first move, and keep the path away from the axis of the spindle.";
+            "Without Y, a live tool along Z mills in the plane of X and C. The mode starts at a rapid move, and the spindle can't jump half a turn where the path crosses the spindle axis.",
+            "Put RAPID before the first move, and keep the path away from the spindle axis.";
         /// A motion that cylindrical interpolation can't make.
         Cylinder = 563, Error, "not possible in cylindrical interpolation",
             "A live tool along X that cuts while C turns follows a cylinder of one radius, and its feed applies there.",
-            "Cut at one distance from the axis of the spindle with the tool axis through it, at a feed per minute. Plunge and retract while C is stopped.";
+            "Cut at one distance from the spindle axis with the tool axis through it, at a feed per minute. Plunge and retract while C is stopped.";
         /// A word within a turn that the control would read another way.
         WayRound = 564, Error, "direction of a rotary axis can't be programmed",
             "The machine counts this axis from 0 to 360 degrees. By its direction rule the axis would turn the other way, or either way.",
             "Add a position in between, or output positions with a clear direction (rotary.output, rotary.zero_sign).";
         /// A feed motion of an axis that can only index.
         Indexing = 565, Error, "feed move of an index-only axis",
-            "The machine turns this axis at rapid from position to position, and can't cut while it turns (rotary.index_only).",
-            "Turn it in a RAPID with the tool away from the part, or post for a machine with a rotary axis that can feed.";
+            "The axis can only index at rapid from position to position, and can't cut while it rotates (rotary.index_only).",
+            "Index it in a RAPID with the tool away from the part, or post for a machine whose rotary axis can feed.";
         /// A move longer than a block may be.
         Departure = 566, Error, "move is longer than a block may be",
             "limits.max_departure is the longest move of one block: straight feed moves are split, others are not.",
@@ -365,7 +365,7 @@ fil_diag::codes! {
             "Give CLEAR. Ignore this if the holes start above the part.";
         /// A machine with a tool list and a tool change, and a CL file without LOADTL.
         NoTool = 721, Warning, "the CL file calls no tool",
-            "Neither LOADTL nor a script has called a tool: the program changes no tool and calls no tool length offset. The tool in the spindle moves with whatever offset is active.",
+            "Neither LOADTL nor a script has called a tool: the program has no tool change and activates no tool length offset. The tool in the spindle moves with whatever offset is active.",
             "Put LOADTL / n before the first motion.";
     }
 }

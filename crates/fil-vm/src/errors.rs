@@ -217,7 +217,7 @@ fil_diag::codes! {
         /// A text without quotes that has a call of a function in it.
         CallInText = 252, Warning, "function call in a text without quotes",
             "A text without quotes is written as it stands: the function is not called.",
-            "Write the text in quotes, and the function behind a comma: PPRINT/'TOOL ',POSTF(7,4).";
+            "Write the text in quotes, and the function after a comma: PPRINT/'TOOL ',POSTF(7,4).";
     }
 }
 

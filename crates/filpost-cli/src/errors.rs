@@ -29,7 +29,7 @@ fil_diag::codes! {
             "Write a colon and the line number after the file name.";
         /// A folder without CL files.
         NoClFiles = 807, Error, "no CL files in this folder",
-            "From a folder, filpost posts the files with the endings of CL files, but not those in subfolders.",
+            "In a folder, filpost posts the files with the extensions of CL files, but not those in subfolders.",
             "Name the folder of the CL files, or the files themselves.";
         /// `filpost new` over something.
         FolderExists = 808, Error, "folder already exists",

@@ -50,11 +50,11 @@ fil_diag::codes! {
             "Post the CL file with --map, or name the map with --map.";
         /// The embedding program has stopped the run.
         Cancelled = 711, Error, "run cancelled",
-            "The embedding program stopped the run before its end.",
+            "The program that embeds filpost stopped the run before its end.",
             "The output so far is not an NC program; run it again.";
         /// A record from memory that makes no sense.
         BadRecord = 712, Error, "record from memory can't be used",
-            "A record from a program must be one that a statement could make: known words, finite numbers, texts without control characters, a motion with its coordinates.",
+            "A record built in memory must be one that a CL statement could be: known words, finite numbers, texts without control characters, a motion with its coordinates.",
             "Make the record with Record::statement, Record::goto or Record::text_command.";
         /// A code that can't be allowed.
         CannotAllow = 713, Error, "code has no level",
@@ -82,8 +82,8 @@ fil_diag::codes! {
             "Use PROGF, TLISTF, OPERF and TOOLF(NEXT) only in texts, not in motions, tools, feeds or dwells.";
         /// A name that Windows does not allow.
         FileName = 720, Error, "invalid file name",
-            "Windows reserves NUL, CON, AUX, PRN, COM1 and LPT1 with any ending, drops points and blanks at the end of a name, and forbids some characters. Scripts can't use such names on any system, so that a post works the same on each.",
-            "Choose another name: letters, digits, `-`, `_`, and one ending.";
+            "Windows reserves NUL, CON, AUX, PRN, COM1 and LPT1 with any extension, drops periods and blanks at the end of a name, and forbids some characters. Scripts can't use such names on any system, so a post works the same on each.",
+            "Choose another name: letters, digits, `-`, `_`, and one extension.";
         /// Statements after the end.
         AfterFini = 751, Warning, "records after FINI",
             "FINI ends the program; what comes after it is not posted.",
@@ -99,7 +99,7 @@ fil_diag::codes! {
         /// A dialect was chosen that contradicts the text.
         OtherSigns = 757, Warning, "CL text contradicts the chosen dialect",
             "Only one CAM system writes this line, and the dialect of another was chosen; tool axes, cycles and texts may be read wrong.",
-            "Choose the dialect of that system, or none.";
+            "Choose the dialect of that system, or leave out --dialect.";
         /// A setting acts that no proven program decides.
         Undecided = 758, Warning, "no proven program decides this setting",
             "`filpost learn` found another value just as good: no proven program decides it. Here the setting changes the program.",

@@ -42,11 +42,9 @@ fn page(title: &str, form: &str, doc: &str, rest: &str) -> String {
 /// The words and items that change nothing, with the reason of each.
 fn no_effect_page() -> String {
     let mut page = String::from(
-        "# Words without effect\n\nThese words and items of CL records are known and change nothing in \
-         the NC program; a word that may be left out says what holds without it. Any other word \
-         that the post has no handler for is refused ([E0513](../errors/E0513.md)), and any other \
-         item that a handler does not take refuses its record ([E0506](../errors/E0506.md)). A test \
-         changes and leaves out every item of many CL files: what changes nothing stands here.\n\n| word | item | reason |\n|---|---|---|\n",
+        "# Words without effect\n\nFind out why a word or item of a CL record changes nothing in the NC program. Other words \
+         without a handler are refused ([E0513](../errors/E0513.md)), and so are records with other \
+         items that their handler does not take ([E0506](../errors/E0506.md)).\n\n| word | item | reason |\n|---|---|---|\n",
     );
     for row in no_effect::rows() {
         let item = if row.item == "*" { "the whole record" } else { row.item };
@@ -60,9 +58,8 @@ fn no_effect_page() -> String {
 /// words that sets it; then those that do not act.
 fn settings_page() -> String {
     let mut page = String::from(
-        "# Settings\n\nEvery setting of a [machine](../machine.md) that the post acts on. The case is a \
-         file of `tests/words` that sets it (case on) and gives another program, refusal or \
-         listing without it (case off), as a test proves. `filpost explain KEY` says the same in \
+        "# Settings\n\nLook up every setting of a [machine](../machine.md), what it does and its values. The case is a \
+         file of `tests/words` that shows its effect. `filpost explain KEY` prints the same in \
          the terminal.\n\n\
          | setting | location | default | what it does | values | case |\n|---|---|---|---|---|---|\n",
     );
@@ -82,7 +79,7 @@ fn settings_page() -> String {
         ));
     }
     page.push_str(
-        "\n## Settings that do not act\n\nThey are kept, and whoever sets one is warned \
+        "\n## Settings that do not act\n\nfilpost keeps them, and warns if you set one \
          ([W0651](../errors/W0651.md)).\n\n| setting | location | what it would do | why it does not act |\n|---|---|---|---|\n",
     );
     for row in TABLE.iter().filter(|row| !row.used) {
@@ -149,8 +146,8 @@ fn outcome(header: &Header, text: &str) -> Result<(Posted, String), String> {
 fn pages() -> BTreeMap<String, String> {
     let mut pages = BTreeMap::new();
     let mut index = String::from(
-        "# Reference\n\nA page for each statement, function and POSTF number. `filpost explain` \
-         says the same in the terminal.\n\n## Statements\n\n",
+        "# Reference\n\nLook up a statement, function, POSTF number, post word or setting. `filpost explain` \
+         prints the same in the terminal.\n\n## Statements\n\n",
     );
     let mut add = |index: &mut String, file: String, title: &str, text: String| {
         index.push_str(&format!("- [{title}]({file}.md)\n"));
@@ -165,7 +162,7 @@ fn pages() -> BTreeMap<String, String> {
         let text = page(row.word, row.form, row.doc, &rest);
         add(&mut index, format!("statement-{}", row.word), row.word, text);
     }
-    index.push_str("\nAll other words make a record for the post: see [compat](../compat.md).\n");
+    index.push_str("\nAll other words make a record for the post: see [post words](#post-words).\n");
     index.push_str("\n## Functions and forms\n\n");
     for row in BUILTINS {
         let extension =
@@ -235,6 +232,20 @@ fn explain_has_the_pages_of_post_words() {
         std::fs::write(&path, &all).unwrap();
     }
     assert_eq!(std::fs::read_to_string(&path).unwrap_or_default(), all, "{EXPLAINED}");
+}
+
+/// The rows of the glossary as `filpost explain` has them.
+const TERMS: &str = "crates/filpost/data/terms.md";
+
+#[test]
+fn explain_has_the_terms_of_the_glossary() {
+    let page = std::fs::read_to_string(root().join("docs/glossary.md")).unwrap();
+    let (_, rows) = page.split_once("|---|---|---|\n").expect("the table of terms");
+    let path = root().join(TERMS);
+    if std::env::var_os("FILPOST_UPDATE").is_some() {
+        std::fs::write(&path, rows).unwrap();
+    }
+    assert_eq!(std::fs::read_to_string(&path).unwrap_or_default(), rows, "{TERMS}");
 }
 
 #[test]

@@ -95,9 +95,9 @@ impl<C: Steps> Verifier<'_, C> {
     fn way_out(&self, kind: CycleKind, in_cycle: bool) -> (Out, bool) {
         if kind == CycleKind::Bore && !in_cycle {
             match self.settings.bore_out() {
-                CycleBoreOut::AtFeedTheSpindleTurning => return (Out::Feed, false),
-                CycleBoreOut::AtRapidTheSpindleStanding => return (Out::Rapid, true),
-                CycleBoreOut::NotSaid => {}
+                CycleBoreOut::AtFeedSpindleRunning => return (Out::Feed, false),
+                CycleBoreOut::AtRapidSpindleStopped => return (Out::Rapid, true),
+                CycleBoreOut::AsTheCycleCode => {}
             }
         }
         let code = self.settings.cycle_code(kind);

@@ -45,15 +45,15 @@ impl Settings<'_> {
         let turns: f64 = squares(&from.rotary, &to.rotary);
         let turns = turns * unit * unit;
         let listed = match self.commons.read(loc::ROTARY_FEED_METHOD) {
-            RotaryFeedMethod::LengthOfTheCombinedMove => RotaryFeed::CombinedWay,
-            RotaryFeedMethod::RotaryPartOnly => RotaryFeed::TurnAlone,
+            RotaryFeedMethod::LengthOfTheCombinedMove => RotaryFeed::AllAxesCombined,
+            RotaryFeedMethod::RotaryPartOnly => RotaryFeed::RotaryAxesAlone,
             RotaryFeedMethod::NotUsed => RotaryFeed::InverseTime,
         };
         match self.commons.read(loc::ROTARY_FEED).unwrap_or(listed) {
-            RotaryFeed::InverseTime | RotaryFeed::AsFedratSays => None,
-            RotaryFeed::TurnAlone => Some(if turns > 0.0 { turns } else { linear }.sqrt()),
-            RotaryFeed::CombinedWay => Some((linear + turns).sqrt()),
-            RotaryFeed::LinearWayElseTheTurn => {
+            RotaryFeed::InverseTime | RotaryFeed::AsFedrat => None,
+            RotaryFeed::RotaryAxesAlone => Some(if turns > 0.0 { turns } else { linear }.sqrt()),
+            RotaryFeed::AllAxesCombined => Some((linear + turns).sqrt()),
+            RotaryFeed::LinearAxesElseRotary => {
                 Some(if linear > 0.0 { linear } else { turns }.sqrt())
             }
         }

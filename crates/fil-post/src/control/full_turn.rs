@@ -136,7 +136,7 @@ pub(super) fn word(control: &mut Control, number: usize, to: f64, scaled: i64) -
     };
     let full = control.tables.axis(number).full_turn();
     match form {
-        RotaryOutput::ShortestWayWithinATurn if 2 * turn.abs() == full => {
+        RotaryOutput::ShortestPathWithinATurn if 2 * turn.abs() == full => {
             refuse(control, number, "moves by 180 degrees, and both directions are equally short")
         }
         RotaryOutput::SignWithinATurn => signed(control, number, scaled, turn < 0),
@@ -210,7 +210,7 @@ fn refuse<T>(control: &Control, number: usize, why: &str) -> Result<T> {
 #[cold]
 pub(crate) fn check_feed(control: &Control, from: [f64; 2], to: &Position) -> Result<()> {
     let form = control.commons.read(loc::ROTARY_OUTPUT);
-    if form == RotaryOutput::ShortestWayWithinATurn {
+    if form == RotaryOutput::ShortestPathWithinATurn {
         return Ok(());
     }
     for number in AxisSet::ROTARY.and(control.tables.present()).numbers() {
@@ -244,7 +244,7 @@ pub(crate) fn check_feed(control: &Control, from: [f64; 2], to: &Position) -> Re
 /// An axis counts from another zero than when it was brought to where it stands.
 #[cold]
 pub(crate) fn check_zero(control: &Control) -> Result<()> {
-    if control.commons.read(loc::ROTARY_OUTPUT) == RotaryOutput::ShortestWayWithinATurn {
+    if control.commons.read(loc::ROTARY_OUTPUT) == RotaryOutput::ShortestPathWithinATurn {
         return Ok(());
     }
     let mut rotary = AxisSet::ROTARY.and(control.tables.present()).numbers();
@@ -276,7 +276,7 @@ pub(super) fn spelled(control: &Control, number: usize, digits: &str) -> Option<
     };
     let size = if size.parse() == Ok(360.0) { "0" } else { size };
     Some(match control.commons.read(loc::ROTARY_OUTPUT) {
-        RotaryOutput::ShortestWayWithinATurn => format!("DC({size})"),
+        RotaryOutput::ShortestPathWithinATurn => format!("DC({size})"),
         RotaryOutput::SignWithinATurn if in_minus => format!("ACN({size})"),
         _ => format!("ACP({size})"),
     })

@@ -21,11 +21,11 @@ const PARALLEL: f64 = 1e-8;
 pub(super) fn look(control: &mut Control, motion: &Motion) -> Result<()> {
     let goes = control.commons.read(loc::RAPID_STRAIGHT);
     let is_straight = goes == RapidStraight::OnAStraightLine
-        || goes == RapidStraight::NotSaid && control.can().straight_rapids;
+        || goes == RapidStraight::Unknown && control.can().straight_rapids;
     if is_straight || !control.tables.chain().has_heads() || !leans_in(control, motion) {
         return Ok(());
     }
-    if goes == RapidStraight::NotSaid {
+    if goes == RapidStraight::Unknown {
         let message = "a rapid of several axes with a tilted head: a control with dog-leg rapids leaves the straight line";
         control.warnings.add(PostCode::RapidMayBend, message.to_string());
         return Ok(());

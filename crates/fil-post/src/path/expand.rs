@@ -105,9 +105,9 @@ pub(super) fn settle_way_out(control: &mut Control, cycle: &Cycle) -> Result<Way
     let bored = matches!(cycle.kind, CycleKind::Bore | CycleKind::Ream);
     if cycle.kind == CycleKind::Bore {
         match control.commons.read(loc::CYCLE_BORE_OUT) {
-            CycleBoreOut::AtFeedTheSpindleTurning => return Ok(WayOut::Feed),
-            CycleBoreOut::AtRapidTheSpindleStanding => return Ok(WayOut::Standing),
-            CycleBoreOut::NotSaid => {}
+            CycleBoreOut::AtFeedSpindleRunning => return Ok(WayOut::Feed),
+            CycleBoreOut::AtRapidSpindleStopped => return Ok(WayOut::Standing),
+            CycleBoreOut::AsTheCycleCode => {}
         }
     }
     let code = control.commons.read(cycle.kind.code());

@@ -272,7 +272,8 @@ fn go_up(post: &mut Post, cycle: &mut Cycle, hole: &Hole, level: f64) -> Result<
 /// (INTCOM 4594 to 4598).
 fn as_single_moves(post: &Post, target: Target) -> bool {
     let commons = &post.control.commons;
-    if post.path.multax != Some(true) || commons.read(loc::CYCLE_MULTAX) != CycleMultax::ByPlane {
+    if post.path.multax != Some(true) || commons.read(loc::CYCLE_MULTAX) != CycleMultax::ByDirection
+    {
         return false;
     }
     let axis = target.axis.normalize();

@@ -224,8 +224,7 @@ fn names_tip(control: &mut Control, rotary: Option<[f64; 2]>) -> Result<()> {
 /// The machine can't reach the tool axis.
 fn turn_to_first_axis(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<()> {
     let control = &post.control;
-    let anywhere =
-        control.commons.read(loc::ROTARY_TIP_CONTROL) == RotaryTipControl::BeginsAnywhere;
+    let anywhere = control.commons.read(loc::ROTARY_TIP_CONTROL) == RotaryTipControl::Anywhere;
     if !(anywhere && control.tip.is_away) {
         return Ok(());
     }
@@ -250,8 +249,7 @@ fn turn_to_first_axis(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) -
 /// The tool may stand at the part; a table that does not reach zero.
 fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
     let control = &mut post.control;
-    let anywhere =
-        control.commons.read(loc::ROTARY_TIP_CONTROL) == RotaryTipControl::BeginsAnywhere;
+    let anywhere = control.commons.read(loc::ROTARY_TIP_CONTROL) == RotaryTipControl::Anywhere;
     if anywhere {
         return Ok(());
     }

@@ -54,7 +54,7 @@ impl<'a> TurningFeed<'a> {
         let given = needs::feed(post.path.feed.as_ref())?;
         let form = if post.path.inverse_time { RotaryFeed::InverseTime } else { rules.form };
         let rate = match given.mode {
-            FeedMode::PerRevolution if form != RotaryFeed::AsFedratSays => {
+            FeedMode::PerRevolution if form != RotaryFeed::AsFedrat => {
                 given.value * turns(&post.control)?
             }
             _ => given.value / rules.per_minute_factor,
@@ -83,7 +83,7 @@ impl<'a> TurningFeed<'a> {
     /// `way` in the part.
     #[cfg_attr(not(target_family = "wasm"), inline(always))]
     pub(super) fn between(&self, from: &Position, to: &Position, way: f64) -> PartFeed {
-        if self.form == RotaryFeed::AsFedratSays {
+        if self.form == RotaryFeed::AsFedrat {
             return PartFeed { feed: self.given, slowed: false, hastened: false };
         }
         let rules = self.rules;
@@ -125,9 +125,9 @@ fn counted_way(form: RotaryFeed, from: &Position, to: &Position) -> f64 {
     let linear = (0..3).map(square).sum::<f64>();
     let turns = (3..5).map(square).sum::<f64>();
     match form {
-        RotaryFeed::LinearWayElseTheTurn if linear > 0.0 => linear.sqrt(),
-        RotaryFeed::LinearWayElseTheTurn => turns.sqrt(),
-        RotaryFeed::TurnAlone if turns > 0.0 => turns.sqrt(),
+        RotaryFeed::LinearAxesElseRotary if linear > 0.0 => linear.sqrt(),
+        RotaryFeed::LinearAxesElseRotary => turns.sqrt(),
+        RotaryFeed::RotaryAxesAlone if turns > 0.0 => turns.sqrt(),
         _ => (linear + turns).sqrt(),
     }
 }

@@ -78,7 +78,7 @@ pub(crate) fn settle(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
 /// # Errors
 /// As [`settle`].
 pub(crate) fn settle_moves(post: &mut Post) -> Result<()> {
-    let moves = post.control.commons.read(loc::INPUT_CSYS) == InputCsys::PointsOfEachFrame;
+    let moves = post.control.commons.read(loc::INPUT_CSYS) == InputCsys::PointsOfEachSystem;
     if moves && post.path.named_frames.waits {
         settle_new(post, post.path.axis.given)
     } else {
@@ -108,7 +108,7 @@ pub(crate) fn settle_axis(post: &mut Post, record: &Record) -> Result<()> {
 #[cold]
 fn settle_new(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     post.path.named_frames.waits = false;
-    if post.control.commons.read(loc::INPUT_CSYS) == InputCsys::PointsOfEachFrame {
+    if post.control.commons.read(loc::INPUT_CSYS) == InputCsys::PointsOfEachSystem {
         return move_points(post);
     }
     let NamedFrames { words, points_of_part, .. } = &mut post.path.named_frames;

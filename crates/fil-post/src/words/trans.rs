@@ -125,8 +125,8 @@ pub fn machine_has_changed(post: &Post) -> bool {
 pub fn origin(post: &mut Post, items: &mut Items) -> Result<bool> {
     let sign = match post.control.commons.read(loc::INPUT_ORIGIN) {
         InputOrigin::Refused => return Ok(false),
-        InputOrigin::ZeroOfTheMachineInThePart => -1.0,
-        InputOrigin::ZeroOfThePartOnTheMachine => 1.0,
+        InputOrigin::MachineZeroInThePart => -1.0,
+        InputOrigin::PartZeroOnTheMachine => 1.0,
     };
     post.require(Act::OtherPoints)?;
     if [Statement::Table, Statement::Machine].into_iter().any(|it| post.path.is_moved_by(it)) {

@@ -32,8 +32,8 @@ pub(super) fn position(motion: &Motion, feeds: FeedListUnits) -> String {
 fn feed_text(feed: f64, motion: &Motion, feeds: FeedListUnits) -> String {
     let turns = motion.turns.filter(|turns| *turns > 0.0);
     match (motion.per_revolution, feeds, turns) {
-        (true, FeedListUnits::AMinute, Some(turns)) => format!("feed {}", length(feed * turns)),
-        (false, FeedListUnits::ARevolution, Some(turns)) => {
+        (true, FeedListUnits::PerMinute, Some(turns)) => format!("feed {}", length(feed * turns)),
+        (false, FeedListUnits::PerRevolution, Some(turns)) => {
             format!("feed {} a revolution", decimals::short(feed / turns, 4))
         }
         (true, ..) => format!("feed {} a revolution", decimals::short(feed, 4)),

@@ -99,7 +99,7 @@ fn leaves_at_feed(cycle: &Cycle, post: &Post) -> bool {
         CycleKind::Tap => true,
         CycleKind::Bore | CycleKind::Ream => match commons.read(cycle.kind.code()) {
             Some(code) => matches!(code, 85 | 89 | 201),
-            None => commons.read(loc::CYCLE_BORE_OUT) != CycleBoreOut::AtRapidTheSpindleStanding,
+            None => commons.read(loc::CYCLE_BORE_OUT) != CycleBoreOut::AtRapidSpindleStopped,
         },
         _ => false,
     }

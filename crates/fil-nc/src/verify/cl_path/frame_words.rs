@@ -122,8 +122,8 @@ impl State {
     pub(super) fn origin(&mut self, record: &Record) -> Option<Vec<ExpectedStep>> {
         let sign = match self.frame.words.origin {
             InputOrigin::Refused => return None,
-            InputOrigin::ZeroOfTheMachineInThePart => -1.0,
-            InputOrigin::ZeroOfThePartOnTheMachine => 1.0,
+            InputOrigin::MachineZeroInThePart => -1.0,
+            InputOrigin::PartZeroOnTheMachine => 1.0,
         };
         if record.has(w::NOMORE) || record.has(w::OFF) {
             self.frame.shift = Vector3::zeros();

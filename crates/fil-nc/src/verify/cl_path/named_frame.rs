@@ -61,7 +61,7 @@ impl State {
             return;
         }
         *now = frame;
-        if self.frame.words.csys == InputCsys::RefusedWhereItChanges {
+        if self.frame.words.csys == InputCsys::RefusedIfItChanges {
             self.frame.named.waiting = Some(at);
             return;
         }

@@ -12,7 +12,7 @@ use crate::control::{Control, line};
 /// True for a machine whose control shifts its zero in place of the points.
 pub fn is_of_control(control: &Control) -> bool {
     control.tables.family == ControlFamily::Sinumerik
-        && control.commons.read(loc::CONTROL_TRANSLATION) == ControlTranslation::ByTrans
+        && control.commons.read(loc::CONTROL_TRANSLATION) == ControlTranslation::Trans
 }
 
 /// Shifts the zero by X, Y and Z, or takes the shift back. The points that the post counts in

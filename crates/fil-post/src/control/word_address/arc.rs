@@ -297,9 +297,9 @@ fn helix_word(control: &mut Control, arc: &PlaneArc) -> Result<()> {
     }
     let a_radian = rise / arc.sweep.to_radians();
     let value = match control.commons.read(loc::CIRCLE_HELIX_OUTPUT) {
-        CircleHelixOutput::RiseARadian => a_radian.abs(),
-        CircleHelixOutput::RiseARadianSigned => a_radian,
-        CircleHelixOutput::RiseATurn => a_radian.abs() * std::f64::consts::TAU,
+        CircleHelixOutput::RisePerRadian => a_radian.abs(),
+        CircleHelixOutput::RisePerRadianSigned => a_radian,
+        CircleHelixOutput::RisePerTurn => a_radian.abs() * std::f64::consts::TAU,
     };
     control.require_letter(IJK[along])?;
     control.word_rounded(IJK[along], value, Rounding::Rate)

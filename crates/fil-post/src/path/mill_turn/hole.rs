@@ -62,7 +62,7 @@ fn drills(control: &Control, cycle: &Cycle, along: usize) -> bool {
         && match control.commons.read(loc::MILL_TURN_PECK_FORM) {
             MillTurnPeckForm::SingleMoves => false,
             MillTurnPeckForm::OutOfTheHole => cycle.kind == Deep,
-            MillTurnPeckForm::BreakingChips => cycle.kind == Brkchp,
+            MillTurnPeckForm::ChipBreaking => cycle.kind == Brkchp,
         }
 }
 
