@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use fil_diag::letter_case;
 use fil_diag::suggest::{did_you_mean, nearest};
@@ -62,13 +62,14 @@ struct Entry {
 /// file or the FIL script brought along.
 #[derive(Clone, Debug)]
 pub struct Vocabulary {
-    entries: Vec<Entry>,
+    // Each run starts with a copy, and few CL files bring words along.
+    entries: Arc<Vec<Entry>>,
     /// Open addressing over the hash of the name; never more than half full.
-    slots: Vec<u32>,
+    slots: Arc<Vec<u32>>,
     /// Codes of our own, to find a free one and to get back to the word.
-    own_codes: HashMap<u64, WordId>,
+    own_codes: Arc<HashMap<u64, WordId>>,
     /// The word of each published code, as [`Vocabulary::minor_with_code`] gives it.
-    public_codes: HashMap<u64, WordId>,
+    public_codes: Arc<HashMap<u64, WordId>>,
 }
 
 impl Default for Vocabulary {
@@ -87,14 +88,14 @@ impl Vocabulary {
 
     fn of_tables() -> Self {
         let mut vocabulary = Vocabulary {
-            entries: Vec::with_capacity(FIRST_SLOTS / 2),
-            slots: vec![FREE; FIRST_SLOTS],
-            own_codes: HashMap::new(),
-            public_codes: HashMap::new(),
+            entries: Arc::new(Vec::with_capacity(FIRST_SLOTS / 2)),
+            slots: Arc::new(vec![FREE; FIRST_SLOTS]),
+            own_codes: Arc::default(),
+            public_codes: Arc::default(),
         };
         for (name, class) in words::NAMES_AND_CLASSES {
             let id = vocabulary.insert(Cow::Borrowed(name), hash(name.as_bytes()), *class);
-            vocabulary.entries[id.index()].of_posts = true;
+            vocabulary.entry_mut(id.index()).of_posts = true;
         }
         for line in PUBLISHED.lines().filter(|line| !line.starts_with('#')) {
             vocabulary.publish(line);
@@ -107,8 +108,9 @@ impl Vocabulary {
         // The first word stays, and a minor one.
         for class in [MAJOR, MINOR] {
             let entries = vocabulary.entries.iter().enumerate().rev();
+            let codes = Arc::make_mut(&mut vocabulary.public_codes);
             for (index, entry) in entries.filter(|(_, e)| e.public && e.class & class != 0) {
-                vocabulary.public_codes.insert(entry.code as u64, WordId(index as u32));
+                codes.insert(entry.code as u64, WordId(index as u32));
             }
         }
         vocabulary
@@ -214,9 +216,11 @@ impl Vocabulary {
         let with_class = |class: u8| {
             self.entries.iter().position(|e| e.public && e.code == code && e.class & class != 0)
         };
-        match with_class(MINOR).or_else(|| with_class(MAJOR)) {
-            Some(index) => self.public_codes.insert(code as u64, WordId(index as u32)),
-            None => self.public_codes.remove(&(code as u64)),
+        let found = with_class(MINOR).or_else(|| with_class(MAJOR));
+        let codes = Arc::make_mut(&mut self.public_codes);
+        match found {
+            Some(index) => codes.insert(code as u64, WordId(index as u32)),
+            None => codes.remove(&(code as u64)),
         };
     }
 
@@ -228,14 +232,18 @@ impl Vocabulary {
         let others: Vec<usize> =
             (0..self.entries.len()).filter(|at| has_it(&self.entries[*at])).collect();
         for other in others {
-            self.entries[other].public = false;
+            self.entry_mut(other).public = false;
             self.give_own_code(WordId(other as u32));
         }
-        let entry = &mut self.entries[id.index()];
+        let entry = self.entry_mut(id.index());
         let before = entry.code;
         (entry.code, entry.public, entry.of_file) = (code, true, true);
         self.find_public(before);
         self.find_public(code);
+    }
+
+    fn entry_mut(&mut self, index: usize) -> &mut Entry {
+        &mut Arc::make_mut(&mut self.entries)[index]
     }
 
     /// Number of words.
@@ -277,7 +285,7 @@ impl Vocabulary {
         let id = WordId(self.entries.len() as u32);
         let of_posts = false;
         let entry = Entry { name, hash, class, public: false, of_posts, of_file: false, code: 0.0 };
-        self.entries.push(entry);
+        Arc::make_mut(&mut self.entries).push(entry);
         if self.entries.len() * 2 > self.slots.len() {
             self.grow();
         } else {
@@ -292,11 +300,11 @@ impl Vocabulary {
         while self.slots[slot] != FREE {
             slot = (slot + 1) & mask;
         }
-        self.slots[slot] = id.0;
+        Arc::make_mut(&mut self.slots)[slot] = id.0;
     }
 
     fn grow(&mut self) {
-        self.slots = vec![FREE; self.slots.len() * 2];
+        self.slots = Arc::new(vec![FREE; self.slots.len() * 2]);
         for index in 0..self.entries.len() {
             self.occupy(WordId(index as u32));
         }
@@ -309,8 +317,8 @@ impl Vocabulary {
         while self.own_codes.contains_key(&code) {
             code += 1;
         }
-        self.own_codes.insert(code, id);
-        self.entries[id.index()].code = code as f64;
+        Arc::make_mut(&mut self.own_codes).insert(code, id);
+        self.entry_mut(id.index()).code = code as f64;
     }
 
     /// Takes one line of the published table.
@@ -326,7 +334,7 @@ impl Vocabulary {
             Some(id) => id,
             None => self.insert(Cow::Borrowed(name), hash, 0),
         };
-        let entry = &mut self.entries[id.index()];
+        let entry = self.entry_mut(id.index());
         entry.class |= match class {
             "major" => MAJOR,
             "minor" => MINOR,

@@ -10,6 +10,7 @@ use filpost::{Commons, ready, stored};
 use crate::change::{self, Changes, Key, Value};
 use crate::facts::Facts;
 use crate::readings;
+use crate::trial::Bench;
 
 /// Values that are sensible for many settings.
 const COMMON_NUMBERS: [f64; 15] =
@@ -24,8 +25,8 @@ pub(crate) struct Alternatives {
 }
 
 impl Alternatives {
-    /// Those that `keep` does not name.
-    pub fn new(keep: &[String]) -> Alternatives {
+    /// Those that `keep` does not name; `posts` are the settings of [`ready_posts`].
+    pub fn new(keep: &[String], posts: Vec<Commons>) -> Alternatives {
         let kept = |row: &Location| {
             keep.iter().any(|key| {
                 row.name == key || (key.ends_with('.') && row.name.starts_with(key.as_str()))
@@ -33,10 +34,7 @@ impl Alternatives {
         };
         let rows = locations::TABLE.iter().enumerate();
         let rows = rows.filter(|(_, row)| row.used && acts_on_programs(row) && !kept(row));
-        let built = ready::READY
-            .iter()
-            .filter_map(|post| filpost::Program::builder().generic(post.name).build_machine().ok());
-        Alternatives { rows: rows.map(|(index, _)| index).collect(), posts: built.collect() }
+        Alternatives { rows: rows.map(|(index, _)| index).collect(), posts }
     }
 
     /// The rows that a search may change.
@@ -45,10 +43,10 @@ impl Alternatives {
     }
 
     /// A few values of each setting whose values are not a short list: where none of them changes
-    /// a program, no other will.
-    pub fn probes(&self, commons: &Commons) -> Vec<Changes> {
+    /// a program, no other will. `reaches` says which rows may matter.
+    pub fn probes(&self, commons: &Commons, reaches: impl Fn(usize) -> bool) -> Vec<Changes> {
         let mut probes = Vec::new();
-        for index in &self.rows {
+        for index in self.rows.iter().filter(|index| reaches(**index)) {
             let row = change::row(*index);
             let now = change::number(commons, *index);
             let values = match row.unit {
@@ -68,9 +66,15 @@ impl Alternatives {
     }
 
     /// Single settings and groups of them; of settings with many values those that act.
-    pub fn all(&self, commons: &Commons, facts: &Facts, acting: &BTreeSet<usize>) -> Vec<Changes> {
+    pub fn all(
+        &self,
+        commons: &Commons,
+        facts: &Facts,
+        acting: &BTreeSet<usize>,
+        reaches: impl Fn(usize) -> bool,
+    ) -> Vec<Changes> {
         let mut found = Vec::new();
-        for index in &self.rows {
+        for index in self.rows.iter().filter(|index| reaches(**index)) {
             let row = change::row(*index);
             let is_absent_code =
                 row.unit == ValueUnit::Code && change::number(commons, *index) == EMPTY;
@@ -80,7 +84,7 @@ impl Alternatives {
             let values = self.values(*index, commons, facts);
             found.extend(values.into_iter().map(|value| set(*index, value)));
         }
-        found.extend(self.groups(commons));
+        found.extend(self.groups(commons, reaches));
         for letter in b'A'..=b'Z' {
             found.extend(readings::other_forms(commons, letter));
             found.extend(self.addresses(commons, letter));
@@ -159,14 +163,14 @@ impl Alternatives {
     }
 
     /// A group of settings as a ready post has it.
-    fn groups(&self, commons: &Commons) -> Vec<Changes> {
+    fn groups(&self, commons: &Commons, reaches: impl Fn(usize) -> bool) -> Vec<Changes> {
         let mut by_group: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
         for index in &self.rows {
             by_group.entry(group(*index)).or_default().push(*index);
         }
         let mut seen = BTreeSet::new();
         let mut found = Vec::new();
-        for rows in by_group.values() {
+        for rows in by_group.values().filter(|rows| rows.iter().any(|index| reaches(*index))) {
             for post in &self.posts {
                 let value = |index: &usize| change::number(post, *index);
                 let differ = rows.iter().filter(|at| value(at) != change::number(commons, **at));
@@ -197,6 +201,14 @@ impl Alternatives {
         }
         found
     }
+}
+
+/// Settings of the ready posts, by name.
+pub(crate) fn ready_posts(bench: &Bench<'_>) -> Vec<Commons> {
+    let build = |index: usize| {
+        filpost::Program::builder().generic(ready::READY[index].name).build_machine().ok()
+    };
+    bench.in_threads(ready::READY.len(), None, build).into_iter().flatten().collect()
 }
 
 /// One setting as changes.

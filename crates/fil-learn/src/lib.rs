@@ -36,6 +36,8 @@ mod check;
 mod facts;
 mod learned;
 mod myers;
+mod noted;
+mod positions;
 mod proof;
 mod readings;
 mod report;

@@ -10,14 +10,18 @@ use crate::candidates::{self, Alternatives};
 use crate::change::{self, Changes, Key, Machine};
 use crate::facts::Facts;
 use crate::learned::Learned;
-use crate::readings;
+use crate::noted::{Noted, Reach};
 use crate::task::Task;
 use crate::texts;
 use crate::trial::{Bench, LEAST_GAIN, State, Trial};
 use crate::undecided;
+use crate::{positions, readings};
 
 /// Most rounds over all candidates.
 const ROUNDS: usize = 8;
+
+/// Most rounds over settings before texts are tried.
+const SETTING_ROUNDS: usize = 2;
 
 /// Bases of which a first round is made.
 const FIRST_ROUND: usize = 4;
@@ -37,7 +41,8 @@ const MOST_PAIRS: usize = 1500;
 /// See [`crate::learn`].
 pub(crate) fn learn(task: &Task<'_>) -> Result<Learned, Error> {
     let bench = Bench::new(task);
-    let search = Search { bench: &bench, task, alternatives: Alternatives::new(&task.keep) };
+    let alternatives = Alternatives::new(&task.keep, candidates::ready_posts(&bench));
+    let search = Search { bench: &bench, task, alternatives };
     let bases = search.bases()?;
     let mut states = search.starts(&bases);
     if states.is_empty() {
@@ -93,14 +98,14 @@ impl Search<'_, '_> {
                 Ok(vec![Arc::new(Base { title, post: None, options: Vec::new(), program })])
             }
             Bases::Ready(names) => {
-                let built: Vec<Result<Base, Error>> = names
-                    .iter()
-                    .map(|name| Base::ready(name, Vec::new(), &self.task.fil))
-                    .collect();
-                if names.len() == 1 {
-                    return built.into_iter().map(|base| base.map(Arc::new)).collect();
+                let build = |at: usize| {
+                    Some(Base::ready(&names[at], Vec::new(), &self.task.fil).map(Arc::new))
+                };
+                let built = self.bench.in_threads(names.len(), None, build).into_iter().flatten();
+                match names.len() {
+                    1 => built.collect(),
+                    _ => Ok(built.filter_map(Result::ok).collect()),
                 }
-                Ok(built.into_iter().filter_map(Result::ok).map(Arc::new).collect())
             }
         }
     }
@@ -172,10 +177,13 @@ impl Search<'_, '_> {
         read
     }
 
-    /// All candidates over a state, without those of settings that do not act.
-    fn candidates(&self, state: &State) -> Vec<Changes> {
+    /// Candidates over a state, without those of settings that do not act. `least` says what they
+    /// may do at least.
+    fn candidates(&self, state: &State, least: Reach) -> Vec<Changes> {
         let Some(commons) = state.machine.commons() else { return Vec::new() };
-        let probes = self.alternatives.probes(&commons);
+        let Some(noted) = Noted::new(self.bench, state) else { return Vec::new() };
+        let reaches = |index: usize| noted.reach(index) >= least;
+        let probes = self.alternatives.probes(&commons, reaches);
         let machines: Vec<Machine> = probes.iter().map(|probe| state.machine.with(probe)).collect();
         let trials = self.bench.attempt_all(&machines, state);
         let acting = probes.iter().zip(trials).filter(|(_, trial)| *trial != Trial::Inert);
@@ -186,8 +194,8 @@ impl Search<'_, '_> {
             })
             .collect();
         let facts = Facts::new(self.bench, state);
-        let mut candidates = self.alternatives.all(&commons, &facts, &acting);
-        candidates.extend(texts::proposals(self.bench, state));
+        let mut candidates = self.alternatives.all(&commons, &facts, &acting, reaches);
+        candidates.extend(positions::proposals(self.bench, state));
         candidates
     }
 
@@ -196,9 +204,8 @@ impl Search<'_, '_> {
         for _ in 0..2 {
             let Some(commons) = state.machine.commons() else { return state };
             let before = state.score;
-            for changes in readings::readings(self.bench, &commons) {
-                self.put(&mut state, &changes);
-            }
+            let readings = readings::readings(self.bench, &commons);
+            self.put_in_order(&mut state, &readings);
             if state.score > before - LEAST_GAIN {
                 break;
             }
@@ -223,8 +230,17 @@ impl Search<'_, '_> {
 
     /// All candidates, each alone; then the better ones, best first, each over those before.
     fn round(&self, mut state: State) -> State {
-        let candidates = self.candidates(&state);
-        self.put_best(&mut state, &candidates);
+        // Settings before texts: a text explains what a setting does as well, on these parts.
+        for _ in 0..SETTING_ROUNDS {
+            let before = state.score;
+            let candidates = self.candidates(&state, Reach::Right);
+            self.put_best(&mut state, &candidates);
+            if state.score > before - LEAST_GAIN {
+                break;
+            }
+        }
+        let texts = texts::proposals(self.bench, &state);
+        self.put_best(&mut state, &texts);
         let state = self.read_off(state);
         let state = self.options(state);
         let state = self.take_back(state);
@@ -232,12 +248,24 @@ impl Search<'_, '_> {
         state
     }
 
-    /// Puts the candidates that help, best first.
-    fn put_best(&self, state: &mut State, candidates: &[Changes]) {
+    /// Puts the candidates that help, in their order.
+    fn put_in_order(&self, state: &mut State, candidates: &[Changes]) {
+        for (_, at) in self.helping(state, candidates) {
+            self.put(state, &candidates[at]);
+        }
+    }
+
+    /// The candidates that help, each alone: the score and the place.
+    fn helping(&self, state: &State, candidates: &[Changes]) -> Vec<(f64, usize)> {
         let machines: Vec<Machine> =
             candidates.iter().map(|changes| state.machine.with(changes)).collect();
         let trials = self.bench.attempt_all(&machines, state);
-        let mut better: Vec<(f64, usize)> = better(&trials).collect();
+        better(&trials).collect()
+    }
+
+    /// Puts the candidates that help, best first.
+    fn put_best(&self, state: &mut State, candidates: &[Changes]) {
+        let mut better = self.helping(state, candidates);
         better.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         for (_, at) in better {
             if self.bench.is_stopped() {
@@ -271,7 +299,7 @@ impl Search<'_, '_> {
 
     /// Settings that need each other, in twos of one group.
     fn in_twos(&self, mut state: State) -> State {
-        let candidates = self.candidates(&state);
+        let candidates = self.candidates(&state, Reach::Right);
         let single: Vec<&Changes> = candidates.iter().filter(|c| c.len() == 1).collect();
         let machines: Vec<Machine> =
             single.iter().map(|changes| state.machine.with(changes)).collect();
@@ -306,7 +334,8 @@ impl Search<'_, '_> {
             }
             let dropped = state.machine.without(key);
             let Some(without) = self.bench.state(dropped) else { continue };
-            let candidates = self.candidates(&without);
+            let mut candidates = self.candidates(&without, Reach::Wrong);
+            candidates.extend(texts::proposals(self.bench, &without));
             let machines: Vec<Machine> =
                 candidates.iter().map(|changes| without.machine.with(changes)).collect();
             if let Some(better) = self.best_of(&machines, &state) {

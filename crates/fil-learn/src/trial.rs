@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
-use filpost::{Program, Unit};
+use filpost::{Program, Run, Unit};
 
 use crate::change::Machine;
 use crate::score::{self, Cut};
@@ -111,13 +111,19 @@ impl<'t> Bench<'t> {
 
     /// The program of a pair; `None` where it is refused.
     pub fn post(&self, program: &Program, pair: usize) -> Option<Vec<u8>> {
-        self.runs.fetch_add(1, Ordering::Relaxed);
         let mut nc = Vec::new();
-        let mut run = program.start();
-        if let Some(units) = self.units {
-            run = run.units(units);
-        }
+        let run = self.start(program);
         run.stream_seekable(Cursor::new(&self.pairs[pair].cl), &mut nc).ok().map(|_| nc)
+    }
+
+    /// A run with the options of the task, which is counted.
+    pub fn start<'o>(&self, program: &Program) -> Run<'o> {
+        self.runs.fetch_add(1, Ordering::Relaxed);
+        let run = program.start();
+        match self.units {
+            Some(units) => run.units(units),
+            None => run,
+        }
     }
 
     /// The program of a pair, and how far it is from the proven one.
@@ -188,7 +194,7 @@ impl<'t> Bench<'t> {
 
     /// Does a job for each number below `count`, in threads; `skipped` where the search was
     /// stopped before.
-    fn in_threads<R: Clone + Send>(
+    pub fn in_threads<R: Clone + Send>(
         &self,
         count: usize,
         skipped: R,

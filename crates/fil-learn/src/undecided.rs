@@ -7,7 +7,8 @@ use filpost::locations::ValueUnit;
 use filpost::{Commons, stored};
 
 use crate::candidates::{self, Alternatives, OTHER_CODE};
-use crate::change::{self, Changes, Key, Value};
+use crate::change::{self, Changes, Key, Machine, Value};
+use crate::noted::{Noted, Reach};
 use crate::readings;
 use crate::trial::{Bench, State, Trial};
 
@@ -48,8 +49,16 @@ pub(crate) fn find(bench: &Bench<'_>, alternatives: &Alternatives, state: &State
         let other = Value::Texts(vec!["(OTHER)".into()]);
         candidates.push(vec![(Key::Texts(list), other)]);
     }
-    let machines: Vec<_> = candidates.iter().map(|one| state.machine.with(one)).collect();
-    let trials = bench.attempt_all(&machines, state);
+    // What no run reads decides nothing, without a trial.
+    let noted = Noted::new(bench, state);
+    let reach = |one: &Changes| noted.as_ref().map_or(Reach::Wrong, |noted| noted.reach_of(one));
+    let machines: Vec<Option<Machine>> = candidates
+        .iter()
+        .map(|one| (reach(one) != Reach::None).then(|| state.machine.with(one)))
+        .collect();
+    let trials = bench.in_threads(machines.len(), Trial::Worse, |at| {
+        machines[at].as_ref().map_or(Trial::Inert, |machine| bench.attempt(machine, state))
+    });
     let mut kept: BTreeMap<Key, usize> = BTreeMap::new();
     let inert = candidates.into_iter().zip(trials).filter(|(_, trial)| *trial == Trial::Inert);
     inert

@@ -4,6 +4,8 @@
 //! and writes them, and the post reads its behaviour from them at the moment it
 //! acts. Locations are 1-based, as in option files.
 
+use std::sync::Arc;
+
 use fil_diag::{Levels, Result};
 
 use crate::effects::{Effect, Effects};
@@ -11,6 +13,7 @@ use crate::errors::MachineCode;
 use crate::letter::Letter;
 use crate::locations::INPUT_TRANSLATE;
 use crate::post_options::PostOptions;
+use crate::reads::Reads;
 use crate::setting::Setting;
 use crate::stored;
 
@@ -29,6 +32,8 @@ pub const DBL_LOCATIONS: usize = 9_999;
 
 /// DBLCOM 355 + letter number is the last output value of that letter.
 pub const LAST_OUTPUT: usize = 355;
+/// Letters of the alphabet.
+const LETTERS: usize = 26;
 
 /// Which of the three commons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -80,9 +85,12 @@ const OF_SETTINGS: u64 = 1 << 32;
 /// a setting, so that tables derived from them know when they are stale.
 #[derive(Clone, Debug)]
 pub struct Commons {
-    int: Vec<i32>,
-    rel: Vec<f64>,
-    dbl: Vec<f64>,
+    // Each run starts with a copy, and few of them change a setting.
+    int: Arc<[i32]>,
+    rel: Arc<[f64]>,
+    dbl: Arc<[f64]>,
+    /// Last output values by the number of the letter; DBLCOM 356 to 381.
+    last_output: [f64; LETTERS + 1],
     generation: u64,
     /// Major words whose records the machine passes over.
     without_effect: Vec<String>,
@@ -98,15 +106,18 @@ pub struct Commons {
     effects: Effects,
     /// Letters that were given a tape position and no digits: bit n is letter n of the alphabet.
     wants_digits: u32,
+    /// Where reads are noted, while somebody asks for them.
+    reads: Option<Reads>,
 }
 
 impl Commons {
     /// Commons with everything absent.
     pub fn absent() -> Self {
         Commons {
-            int: vec![NA; INT_LOCATIONS + 1],
-            rel: vec![EMPTY; REL_LOCATIONS + 1],
-            dbl: vec![EMPTY; DBL_LOCATIONS + 1],
+            int: vec![NA; INT_LOCATIONS + 1].into(),
+            rel: vec![EMPTY; REL_LOCATIONS + 1].into(),
+            dbl: vec![EMPTY; DBL_LOCATIONS + 1].into(),
+            last_output: [EMPTY; LETTERS + 1],
             generation: 0,
             without_effect: Vec::new(),
             allowed_offsets: Vec::new(),
@@ -115,11 +126,14 @@ impl Commons {
             options: PostOptions::default(),
             effects: Effects::default(),
             wants_digits: 0,
+            reads: None,
         }
     }
 
     /// An integer setting; [`NA`] when absent.
+    #[inline]
     pub fn int(&self, location: Int) -> i32 {
+        self.note(Kind::Int, location.0 as usize);
         self.int[location.0 as usize]
     }
 
@@ -135,8 +149,23 @@ impl Commons {
         setting.read(self)
     }
 
-    /// A real setting; [`EMPTY`] when absent.
+    /// Notes reads from now on, in copies too; gives the notes.
+    pub fn note_reads(&mut self) -> Reads {
+        self.reads.get_or_insert_default().clone()
+    }
+
+    /// Notes a read where somebody asks for it.
+    #[inline]
+    fn note(&self, kind: Kind, at: usize) {
+        if let Some(reads) = &self.reads {
+            reads.note(kind, at);
+        }
+    }
+
+    /// A real setting; [`EMPTY`] when absent. The last output values are not among them.
+    #[inline]
     pub fn dbl(&self, location: Dbl) -> f64 {
+        self.note(Kind::Dbl, location.0 as usize);
         self.dbl[location.0 as usize]
     }
 
@@ -148,6 +177,7 @@ impl Commons {
 
     /// A RELCOM setting, `None` when absent.
     pub fn rel_opt(&self, location: Rel) -> Option<f64> {
+        self.note(Kind::Rel, location.0 as usize);
         let value = self.rel[location.0 as usize];
         (value != EMPTY).then_some(value)
     }
@@ -246,13 +276,13 @@ impl Commons {
     /// Last output value of a letter; [`EMPTY`] when unknown.
     #[inline]
     pub fn last_output(&self, letter: Letter) -> f64 {
-        self.dbl[LAST_OUTPUT + letter.index()]
+        self.last_output[letter.index()]
     }
 
     /// Remembers the last output value of a letter.
     #[inline]
     pub fn set_last_output(&mut self, letter: Letter, value: f64) {
-        self.dbl[LAST_OUTPUT + letter.index()] = value;
+        self.last_output[letter.index()] = value;
     }
 
     /// Value of any location as FIL sees it: absent is [`EMPTY`].
@@ -261,11 +291,13 @@ impl Commons {
     /// A location out of range.
     pub fn get(&self, kind: Kind, location: u32) -> Result<f64> {
         let at = check(kind, location)?;
+        self.note(kind, at);
         Ok(match kind {
             Kind::Int if self.int[at] == NA => EMPTY,
             Kind::Int => f64::from(self.int[at]),
             Kind::Rel => self.rel[at],
-            Kind::Dbl => self.dbl[at],
+            Kind::Dbl => last_output_letter(at)
+                .map_or_else(|| self.dbl[at], |letter| self.last_output[letter]),
         })
     }
 
@@ -283,16 +315,24 @@ impl Commons {
         let is_other = match kind {
             Kind::Int => {
                 let value = integer(location, value)?;
-                value != std::mem::replace(&mut self.int[at], value)
+                value != std::mem::replace(&mut Arc::make_mut(&mut self.int)[at], value)
             }
-            Kind::Rel => value != std::mem::replace(&mut self.rel[at], value),
-            Kind::Dbl => value != std::mem::replace(&mut self.dbl[at], value),
+            Kind::Rel => value != std::mem::replace(&mut Arc::make_mut(&mut self.rel)[at], value),
+            Kind::Dbl => match last_output_letter(at) {
+                Some(letter) => value != std::mem::replace(&mut self.last_output[letter], value),
+                None => value != std::mem::replace(&mut Arc::make_mut(&mut self.dbl)[at], value),
+            },
         };
         if is_other {
             self.generation = self.generation.wrapping_add(weight(kind, location));
         }
         Ok(())
     }
+}
+
+/// The number of the letter whose last output value a location of DBLCOM is.
+fn last_output_letter(at: usize) -> Option<usize> {
+    at.checked_sub(LAST_OUTPUT).filter(|letter| (1..=LETTERS).contains(letter))
 }
 
 /// What a change of a location adds to the generation.

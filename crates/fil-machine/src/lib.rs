@@ -51,6 +51,7 @@ pub mod number;
 pub mod numbering;
 pub mod osp_lengths;
 pub mod post_options;
+pub mod reads;
 pub mod renamed;
 pub mod rotary_feed_rules;
 mod rotation;

@@ -11,6 +11,7 @@ use fil_diag::{Diag, Level, Levels};
 #[cfg(feature = "files")]
 use fil_machine::locations::Location;
 use fil_machine::post_options::PostOption;
+use fil_machine::reads::Reads;
 use fil_machine::{Commons, contradictions, tape_style};
 use fil_text::CodePage;
 use fil_vm::{FilFile, Functions, Limits, LoadOptions, Module};
@@ -270,6 +271,22 @@ impl Program {
         if !wrong.is_empty() {
             return Err(Error::Setup(wrong));
         }
+        self.on_machine(commons)
+    }
+
+    /// The same program, whose runs note the settings that they read. The notes begin with what a
+    /// run reads before its first record; only one run at a time should note in them.
+    ///
+    /// # Errors
+    /// None for a machine that was built.
+    #[doc(hidden)]
+    pub fn with_reads(&self) -> Result<(Program, Reads), Error> {
+        let mut commons = self.commons().clone();
+        let reads = commons.note_reads();
+        Ok((self.on_machine(commons)?, reads))
+    }
+
+    fn on_machine(&self, commons: Commons) -> Result<Program, Error> {
         let shared = &self.shared;
         let mut prototype =
             fil_post::Post::new(commons).map_err(|diag| Error::Setup(vec![*diag]))?;

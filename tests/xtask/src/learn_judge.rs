@@ -103,6 +103,8 @@ struct Totals {
     unproven: usize,
     times: Vec<Duration>,
     runs: Vec<u64>,
+    /// Seconds of a processor: what a busy machine does not lengthen.
+    processor: Vec<f64>,
 }
 
 /// Runs the judge.
@@ -160,7 +162,8 @@ fn program_without(base: &str, settings: &[String]) -> Option<Program> {
 fn post(program: &Program, cl: &str) -> Option<(Vec<u8>, Vec<String>)> {
     let mut nc = Vec::new();
     let report = program.start().stream_seekable(Cursor::new(cl.as_bytes()), &mut nc).ok()?;
-    Some((nc, report.warnings.iter().map(|diag| diag.code.name()).collect()))
+    let said = |diag: &filpost::Diag| format!("{} {}", diag.code.name(), diag.message);
+    Some((nc, report.warnings.iter().map(said).collect()))
 }
 
 /// Makes a hidden post that posts enough parts.
@@ -214,7 +217,7 @@ fn judge(args: &Args, number: usize, hidden: &Hidden, parts: &[Part], totals: &m
         Pair::new(name, parts[*part].cl.as_bytes(), &format!("{name}.nc"), nc)
     });
     let task = Task::new(pairs.collect(), Bases::all()).threads(args.threads);
-    let start = Instant::now();
+    let (start, processor) = (Instant::now(), processor_seconds());
     let learned = match fil_learn::learn(&task) {
         Ok(learned) => learned,
         Err(error) => {
@@ -226,6 +229,8 @@ fn judge(args: &Args, number: usize, hidden: &Hidden, parts: &[Part], totals: &m
         }
     };
     let time = start.elapsed();
+    let processor = processor_seconds() - processor;
+    totals.processor.push(processor);
     totals.posts += 1;
     totals.learned += usize::from(learned.is_equal());
     totals.times.push(time);
@@ -242,13 +247,18 @@ fn judge(args: &Args, number: usize, hidden: &Hidden, parts: &[Part], totals: &m
             continue;
         };
         let is_equal = ours == *nc;
-        let is_warned = warnings.iter().any(|code| code == "W0758");
+        let undecided: Vec<&String> =
+            warnings.iter().filter(|said| said.starts_with("W0758")).collect();
+        let is_warned = !undecided.is_empty();
         equal += usize::from(is_equal);
         let alike = is_equal || read_alike(&ours, nc);
         totals.as_control += usize::from(alike);
         totals.warned += usize::from(!alike && is_warned);
         totals.quietly_wrong += usize::from(!alike && !is_warned);
         totals.warned_equal += usize::from(is_equal && is_warned);
+        if args.verbose && is_equal {
+            undecided.iter().for_each(|said| println!("  equal {} {said}", parts[*part].name));
+        }
         if args.verbose && !is_equal {
             println!("  held out {} (warned: {is_warned})", parts[*part].name);
             tell_difference(nc, &ours);
@@ -259,7 +269,7 @@ fn judge(args: &Args, number: usize, hidden: &Hidden, parts: &[Part], totals: &m
     totals.shown.0 += usize::from(hidden.is_shown && all);
     totals.shown.1 += usize::from(hidden.is_shown);
     println!(
-        "{number} {}: {} settings hidden, {} found over {}, learned {}, held out {equal}/{}, shown {}, {} runs, {:.1} s",
+        "{number} {}: {} settings hidden, {} found over {}, learned {}, held out {equal}/{}, shown {}, {} runs, {:.1} s, {processor:.1} s of a processor",
         hidden.base,
         hidden.settings.len(),
         learned.proofs().count(),
@@ -285,6 +295,16 @@ fn judge(args: &Args, number: usize, hidden: &Hidden, parts: &[Part], totals: &m
             }
         }
     }
+}
+
+/// Seconds of a processor that this process has used, where the system tells (Linux); else 0.
+fn processor_seconds() -> f64 {
+    const TICKS_A_SECOND: f64 = 100.0;
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let after_name = stat.rsplit_once(')').map_or("", |(_, rest)| rest);
+    let ticks =
+        |at: usize| after_name.split_whitespace().nth(at).and_then(|t| t.parse::<f64>().ok());
+    (ticks(11).unwrap_or(0.0) + ticks(12).unwrap_or(0.0)) / TICKS_A_SECOND
 }
 
 /// As a control reads both programs.
@@ -362,6 +382,12 @@ impl Totals {
         let median = self.times.get(self.times.len() / 2).copied().unwrap_or_default();
         let worst = self.times.last().copied().unwrap_or_default();
         let runs = self.runs.get(self.runs.len() / 2).copied().unwrap_or_default();
+        self.processor.sort_by(f64::total_cmp);
+        println!(
+            "seconds of a processor: {:.1} median, {:.1} most",
+            self.processor.get(self.processor.len() / 2).copied().unwrap_or_default(),
+            self.processor.last().copied().unwrap_or_default(),
+        );
         println!(
             "seed {}: {:.0} % learned, {:.0} % held out, {:.1} s median, {:.1} s worst, {runs} runs median",
             args.seed,
