@@ -23,7 +23,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use filpost::verify::{Allowed, NcProgram};
-use filpost::{Builder, Diag, Error, Program, Run, Unit, explain, includes};
+use filpost::{Builder, Diag, Error, Program, Run, Severity, Unit, explain, includes};
 
 use crate::root;
 
@@ -296,7 +296,10 @@ fn joined(codes: &BTreeSet<String>) -> String {
 }
 
 fn refusal(error: &Error) -> (String, String) {
-    let Some(first) = error.diags().first() else { return (String::new(), error.to_string()) };
+    let mut diags = error.diags().iter();
+    let Some(first) = diags.find(|diag| diag.severity == Severity::Error) else {
+        return (String::new(), error.to_string());
+    };
     let help = first.hint.as_deref().unwrap_or_default();
     (first.code.name(), format!("{}\n{help}", first.message))
 }

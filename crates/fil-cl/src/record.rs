@@ -259,6 +259,16 @@ impl Record {
         slot.map(|slot| *slot = word).is_some()
     }
 
+    /// Number of the first data word that acts: a motion and a circle begin with slots that only
+    /// name them.
+    pub fn first_value(&self) -> usize {
+        match (self.kind, self.sub) {
+            (kind::MOTION, _) => FIRST_DATA + 2,
+            (kind::SURFACE, CIRCLE_SURFACE) => FIRST_DATA + 5,
+            _ => FIRST_DATA,
+        }
+    }
+
     /// Inserts a word before word `n`, which may be one past the end; false
     /// when `n` lies elsewhere or the record is full.
     pub fn insert(&mut self, n: usize, word: Word) -> bool {

@@ -4,8 +4,8 @@
 //! refuses what the handler did not take. No handler can bypass it.
 
 use crate::cause::Cause;
-use crate::control::Control;
 use crate::control::sinumerik::tool_names;
+use crate::control::{Control, Held};
 use crate::dispatch::{self, Handler};
 use crate::errors::PostCode;
 use crate::items::Items;
@@ -19,7 +19,7 @@ use crate::words as word;
 use crate::words::end;
 use fil_cl::record::kind;
 use fil_cl::vocabulary::{Vocabulary, words as w};
-use fil_cl::{Record, WordId};
+use fil_cl::{Record, Word, WordId};
 use fil_diag::{Diag, Result};
 use fil_machine::Commons;
 use nalgebra::{Point3, Vector3};
@@ -104,7 +104,7 @@ fn carry_out(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resul
     if record.inert {
         return note(post, record, vocabulary);
     }
-    if !post.control.tools.held.is_empty() && !takes_messages(record.major) {
+    if !post.control.tools.held.is_empty() && !stays_before_change(&post.control, record) {
         way_home::write_held(&mut post.control)?;
     }
     match dispatch::of(record.major) {
@@ -140,11 +140,15 @@ fn carry_out(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resul
     }
 }
 
-/// A message or stop waits for what comes behind these words: for a tool change that stops before it.
-fn takes_messages(word: WordId) -> bool {
+/// A record between a message or stop and the tool change that it waits for. What switches off may
+/// stand between a stop and the change: the machine stops with spindle and coolant off.
+fn stays_before_change(control: &Control, record: &Record) -> bool {
     const BEFORE_A_CHANGE: [WordId; 8] =
         [w::PPRINT, w::TPRINT, w::CUTTER, w::LOADTL, w::LOAD, w::TURRET, w::OPSTOP, w::STOP];
-    BEFORE_A_CHANGE.contains(&word)
+    let switches_off =
+        matches!(record.major, w::SPINDL | w::COOLNT) && record.data[..] == [Word::Minor(w::OFF)];
+    let has_stop = || control.tools.held.iter().any(|(held, _)| matches!(held, Held::Stop(_)));
+    BEFORE_A_CHANGE.contains(&record.major) || (switches_off && has_stop())
 }
 
 /// What a word without effect says all the same: the name of a tool, the frame of the points.

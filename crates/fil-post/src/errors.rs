@@ -367,5 +367,9 @@ fil_diag::codes! {
         NoTool = 721, Warning, "the CL file calls no tool",
             "Neither LOADTL nor a script has called a tool: the program has no tool change and activates no tool length offset. The tool in the spindle moves with whatever offset is active.",
             "Put LOADTL / n before the first motion.";
+        /// INCR of ROTATE or ROTABL behind another work offset.
+        ShiftedTurn = 722, Doubt, "incremental turn after another work offset",
+            "The table was positioned in another work offset. The post counts on from that angle, which is right where both offsets have one zero of the table.",
+            "Give the angle from zero: ROTATE / BAXIS, ABSOL, 180.";
     }
 }

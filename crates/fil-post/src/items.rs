@@ -129,6 +129,17 @@ impl<'a> Items<'a> {
         }
     }
 
+    /// Takes the numbers that follow those taken last, without a word between them.
+    pub fn further(&mut self) -> Vec<f64> {
+        let next = |items: &mut Self| {
+            let at = usize::from(items.last_word()) + 1 - FIRST_DATA;
+            let Some(Word::Number(value)) = items.record.data.get(at) else { return None };
+            items.take(at);
+            Some(*value)
+        };
+        std::iter::from_fn(|| next(self)).collect()
+    }
+
     /// Takes the first number that is left.
     pub fn number(&mut self) -> Option<f64> {
         let at = (0..self.len())
@@ -166,6 +177,24 @@ impl<'a> Items<'a> {
     #[inline]
     pub fn deny_rest(&self) -> Result<()> {
         if self.all_taken() { Ok(()) } else { self.deny_left() }
+    }
+
+    /// Refuses a word that is left where only numbers can stand, as a script that takes the wrong
+    /// word of a record makes it.
+    pub fn deny_words(&self) -> Result<()> {
+        let word = (0..self.len()).find_map(|at| match self.record.data[at] {
+            Word::Minor(word) if self.is_left(at) => Some(word),
+            _ => None,
+        });
+        let Some(word) = word else { return Ok(()) };
+        let name = self.name(word);
+        let mut diag = self.error(format!("{name} is a word, and a number is needed"));
+        diag.hint = diag.hint.or_else(|| {
+            Some(format!(
+                "POSTF(6,n) is 2 for a word of a record; COUPLF({name}) is the number after {name}."
+            ))
+        });
+        Err(diag)
     }
 
     fn deny_left(&self) -> Result<()> {

@@ -26,6 +26,10 @@ impl Defaults {
     const DANGER: Defaults =
         Defaults { careful: Level::Deny, legacy: Level::Warn, own: Level::Deny };
 
+    /// What is right on most machines, and can be judged only by the operator.
+    const USUAL: Defaults =
+        Defaults { careful: Level::Warn, legacy: Level::Warn, own: Level::Warn };
+
     /// The default for a cause.
     pub fn level(self, by: Source, profile: LevelProfile) -> Level {
         match (by, profile) {
@@ -50,6 +54,8 @@ const DOUBTS: &[(PostCode, Defaults)] = &[
     (PostCode::AuthorChange, Defaults::DANGER),
     // An output macro or REPLAC took out a word that the post can't restate.
     (PostCode::EditedWord, Defaults::DANGER),
+    // A table that is turned on from where it stands in another work offset.
+    (PostCode::ShiftedTurn, Defaults::USUAL),
 ];
 
 /// The default levels of a code; `None` for one that is no doubt of the post.

@@ -88,9 +88,9 @@ fil_diag::codes! {
             "The section processes its record inside a block without an end. Where the block ends decides which records are lost.",
             "Add the missing ENDIF or ENDCAS where the block ends.";
         /// A variable where a word of the same name can be meant.
-        NameOrWord = 224, Doubt, "variable replaces a vocabulary word",
-            "A statement sets this name, so its value would replace the vocabulary word that the post word takes here.",
-            "Rename the variable: its name must not be a vocabulary word.";
+        NameOrWord = 224, Doubt, "variable replaces a vocabulary word or an address",
+            "A statement sets this name, so its value would replace the vocabulary word or the address letter that the post word takes here.",
+            "Rename the variable: its name must not be a vocabulary word or an address letter.";
         /// A word that is read as a variable.
         WordAsValue = 225, Doubt, "vocabulary word read as a variable",
             "Nothing sets this name, so it is EMPTY and never equals a word of a record.",

@@ -1,14 +1,14 @@
 //! What stands between the motions: dwells, texts, functions, the end.
 
 use super::ahead::Steps;
-use super::expected_step::{Effect, End, ExpectedStep, Step};
+use super::expected_step::{CoolantKind, Effect, End, ExpectedStep, Step};
 use super::hole::APPROACH;
 use super::report::{FindingKind, Unverified};
 use super::say::short;
 use super::settings::Quantity;
 use super::verifier::Verifier;
 use crate::dialect::Auxiliary;
-use crate::motion::Event;
+use crate::motion::{Event, Spindle};
 
 impl<C: Steps> Verifier<'_, C> {
     /// A dwell in seconds, or in turns of the spindle.
@@ -106,7 +106,14 @@ impl<C: Steps> Verifier<'_, C> {
     /// A stop right before a tool change that stops there anyway is that one; before anything else
     /// it stands by itself.
     pub(super) fn settle_held_stop(&mut self, next: &ExpectedStep) {
-        let waits = matches!(next, ExpectedStep::Cutter(_));
+        let waits = matches!(
+            next,
+            ExpectedStep::Cutter(_)
+                | ExpectedStep::Counts(_)
+                | ExpectedStep::Stop { .. }
+                | ExpectedStep::Spindle(Some(Spindle::Off))
+                | ExpectedStep::Coolant(CoolantKind::Off)
+        );
         let Some(cl_line) = self.memory.held_stop.take_if(|_| !waits) else { return };
         let stops_there = matches!(next, ExpectedStep::Tool { .. }) && self.blocks.changes > 0;
         if !stops_there {
@@ -223,7 +230,7 @@ impl<C: Steps> Verifier<'_, C> {
         self.take_blocks(&self.settings.blocks_of_switching_off());
         let to = self.settings.home_at_end(self.limits.metric);
         if to != [None; 3] {
-            self.go_to_machine(cl_line, to);
+            self.is_at_machine(cl_line, to);
         }
         if self.settings.turns_home_at_end() {
             self.turn_home(cl_line);

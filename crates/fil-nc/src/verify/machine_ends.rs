@@ -14,16 +14,20 @@ use crate::motion::{Course, Event, Move, Position};
 const SAME_AXIS: f64 = 1e-4;
 
 impl<C: Steps> Verifier<'_, C> {
-    /// A rapid to a position of the linear axes, mm; the others stay, and the rotary axes.
+    /// A rapid that the CL file asks for to a position of the linear axes, mm; the others stay, and
+    /// the rotary axes.
     pub(super) fn go_to_machine(&mut self, cl_line: u32, to: [Option<f64>; 3]) {
         self.report.compared += 1;
+        self.report.matched += u64::from(self.is_at_machine(cl_line, to));
+    }
+
+    /// The same where the settings may ask for it, which is no motion of the CL file. Says whether
+    /// the program makes it.
+    pub(super) fn is_at_machine(&mut self, cl_line: u32, to: [Option<f64>; 3]) -> bool {
         self.memory.initial = None;
         if self.settings.names_machine_positions() {
             let [x, y, z] = to;
-            if self.go_in_machine_frame(cl_line, [x, y, z, None, None]) {
-                self.report.matched += 1;
-            }
-            return;
+            return self.go_in_machine_frame(cl_line, [x, y, z, None, None]);
         }
         self.pass(cl_line);
         let raised = self.raised_from_here(to[2]);
@@ -32,7 +36,8 @@ impl<C: Steps> Verifier<'_, C> {
             let axes = ["X", "Y", "Z"].iter().zip(to);
             let axes = axes.filter_map(|(axis, value)| Some(format!(" {axis}{}", short(value?))));
             let message = format!("no rapid to{}", axes.collect::<String>());
-            return self.find(FindingKind::Missing, Some(cl_line), None, message);
+            self.find(FindingKind::Missing, Some(cl_line), None, message);
+            return false;
         };
         let last = self.next + count;
         if let Some(raised) = raised.filter(|_| !self.facts.has(Fact::Up)) {
@@ -54,10 +59,10 @@ impl<C: Steps> Verifier<'_, C> {
             }
             self.next += 1;
         }
-        self.report.matched += 1;
         self.facts.set(Fact::Away, true);
         self.settle(cl_line);
         self.watch.stand(None);
+        true
     }
 
     /// Motions to a point in the frame of the machine, mm and degrees, Z before all others; an
@@ -213,20 +218,29 @@ impl<C: Steps> Verifier<'_, C> {
 
     /// RETRCT: up to the level of the settings, never down.
     pub(super) fn retract(&mut self, cl_line: u32) {
-        let Some(level) = self.settings.retract_level(self.limits.metric) else { return };
+        if let Some(made) = self.is_retracted(cl_line) {
+            self.report.compared += 1;
+            self.report.matched += u64::from(made);
+        }
+    }
+
+    /// The same where the settings ask for it; says whether the program makes it, `None` where the
+    /// tool is as high already.
+    fn is_retracted(&mut self, cl_line: u32) -> Option<bool> {
+        let level = self.settings.retract_level(self.limits.metric)?;
         let stands = self.settings.forward.restated(&self.at, &Position::default()).linear[2];
         let is_above = self.known[2] && stands >= level;
-        if !is_above || self.settings.names_machine_positions() {
-            self.go_to_machine(cl_line, [None, None, Some(level)]);
-        }
+        let is_asked = !is_above || self.settings.names_machine_positions();
+        let made = is_asked.then(|| self.is_at_machine(cl_line, [None, None, Some(level)]));
         self.facts.add_if(Fact::Away, is_above);
+        made
     }
 
     /// The way up before another work offset, of a tool that has come to the part.
     pub(super) fn go_up_for_offset(&mut self, cl_line: u32) {
         let is_in_part = !self.facts.has(Fact::FreshTool) && !self.facts.has(Fact::Away);
         if self.settings.goes_up_for_offsets() && is_in_part {
-            self.retract(cl_line);
+            self.is_retracted(cl_line);
         }
     }
 
@@ -238,7 +252,7 @@ impl<C: Steps> Verifier<'_, C> {
         }
         let here = self.settings.forward.pose(&self.at);
         if (here.axis - pose.axis).norm() > SAME_AXIS {
-            self.retract(cl_line);
+            self.is_retracted(cl_line);
         }
     }
 

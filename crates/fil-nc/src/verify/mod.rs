@@ -29,6 +29,7 @@ mod hole_live;
 mod hole_out;
 mod hole_tip;
 mod inserted;
+mod left_out;
 mod lines;
 mod machine_blocks;
 mod machine_ends;
@@ -160,7 +161,8 @@ const FEW: u64 = 6;
 /// # Errors
 /// E0941 for such a program.
 pub fn refuse_another_part(report: &Report) -> Result<(), Box<Diag>> {
-    if report.compared < FEW || report.matched * 10 >= report.compared {
+    let compared = report.compared - report.left_out;
+    if compared < FEW || report.matched * 10 >= compared {
         return Ok(());
     }
     let message = format!(

@@ -179,6 +179,8 @@ pub struct Report {
     pub compared: u64,
     /// Those of them that the program makes.
     pub matched: u64,
+    /// Those of them in operations that the program leaves out as a whole.
+    pub left_out: u64,
     /// Deviation of the tool tip, mm.
     pub position: Deviation,
     /// Deviation of the tool axis, degrees.

@@ -30,6 +30,9 @@ impl<C: Steps> Verifier<'_, C> {
             self.expected.change_tool(number, offset, self.settings);
             return self.expected.take_first_offset(self.settings);
         }
+        if self.leaves_operation_out(cl_line, number) {
+            return;
+        }
         self.await_blocks_before_change();
         let is_first = self.blocks.changes == 0;
         self.blocks.changes += 1;
@@ -47,13 +50,16 @@ impl<C: Steps> Verifier<'_, C> {
             None => {
                 let message = format!("no change to tool {number}");
                 self.find(FindingKind::Tool, Some(cl_line), None, message);
-                return self.expected.change_tool(number, offset, self.settings);
+                self.expected.change_tool(number, offset, self.settings);
+                return self.expected.take_first_offset(self.settings);
             }
         }
         if let Some(Event::ToolChange { line, tool, modes }) = self.nc.get(self.next) {
             self.next += 1;
             self.facts.set(Fact::Away, true);
-            self.check_standing(cl_line, line, &modes, true);
+            if !std::mem::take(&mut self.memory.begins_again) {
+                self.check_standing(cl_line, line, &modes, true);
+            }
             if tool != number {
                 let message = format!("changes to tool {tool}, it should be tool {number}");
                 self.find(FindingKind::Tool, Some(cl_line), Some(line), message);

@@ -46,6 +46,10 @@ pub struct Cycle {
     pub kind: CycleKind,
     /// Depth below the hole's start, positive.
     pub depth: f64,
+    /// Gaps between the plates that the hole leads through: how deep each begins and ends.
+    pub plates: Vec<[f64; 2]>,
+    /// Where the tip was before the first hole through several plates, in the part.
+    pub came_from: Option<Point3<f64>>,
     /// R level above the hole's start.
     pub clear: f64,
     /// Level above the hole's start to retract to, and to come from; 0 is the level before the

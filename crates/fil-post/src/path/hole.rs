@@ -12,8 +12,8 @@ use fil_machine::modes::FeedMode;
 
 use super::position::Solution;
 use super::{
-    Since, expand, frame_begin, mill_turn, position, rapid, rapid_turn, rotary, scaled_lead,
-    tip_control, tip_hole, turn_at_top,
+    Since, expand, frame_begin, mill_turn, plates, position, rapid, rapid_turn, rotary,
+    scaled_lead, tip_control, tip_hole, turn_at_top,
 };
 use crate::control::needs::Act;
 use crate::control::place::cross_unknown;
@@ -65,6 +65,9 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         post.warn(PostCode::SpindleStands, format!("CYCLE {}", spindle::BEHIND_STOP));
     }
     refuse_scaled(post)?;
+    if !cycle.plates.is_empty() {
+        return plates::drill(post, cycle, target);
+    }
     tip_control::choose(post, target, false);
     if post.writes_tip() {
         refuse_less_than_a_digit(&post.control, cycle)?;

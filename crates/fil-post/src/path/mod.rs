@@ -29,6 +29,7 @@ mod machine_position;
 pub mod mill_turn;
 pub(crate) mod named_frames;
 mod operations;
+mod plates;
 mod pole;
 mod position;
 pub mod rapid;

@@ -65,6 +65,10 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
     // FEDTO,0 of NX feeds from the R level to the hole's start.
     let feeds_to_start = items.has(w::FEDTO);
     let depth = optional(items, &[w::DEPTH, w::FEDTO], &mut words.depth)?;
+    let (depth, plates) = match depth {
+        Some(first) if kind == CycleKind::Thru => plates(items, first)?,
+        depth => (depth, Vec::new()),
+    };
     let depth = match depth {
         None if kind == CycleKind::Csink => depth_of_cone(items, &mut words.depth)?,
         depth => depth,
@@ -80,6 +84,9 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         warn_of_mode(post);
     }
     let dwell = optional(items, &[w::DWELL], &mut words.dwell)?;
+    if !plates.is_empty() && dwell.is_some_and(|dwell| dwell != 0.0) {
+        return PostCode::CycleForm.err("DWELL of a hole through several plates");
+    }
     if depth == 0.0 && !(feeds_to_start && clear > 0.0) || clear < 0.0 {
         return PostCode::CycleForm.err("DEPTH must not be zero and CLEAR not negative");
     }
@@ -98,6 +105,8 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
     Ok(Cycle {
         kind,
         depth,
+        plates,
+        came_from: None,
         clear,
         retract,
         step,
@@ -113,6 +122,26 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         along: None,
         in_force: None,
     })
+}
+
+/// The depth of THRU and the gaps between its plates: DEPTH,a,b,c leads through a plate that ends at
+/// a and one from b to c.
+///
+/// # Errors
+/// A plate without its end, or depths that do not rise.
+fn plates(items: &mut Items, first: f64) -> Result<(Option<f64>, Vec<[f64; 2]>)> {
+    let mut depths = vec![first];
+    depths.extend(items.further());
+    let rises = depths.windows(2).all(|pair| pair[0].abs() < pair[1].abs());
+    if depths.len().is_multiple_of(2) || !rises {
+        return PostCode::CycleForm.err_with(
+            "THRU with the depths of several plates: they are not ends and beginnings in turn",
+            "Give the end of the first plate, then beginning and end of each further one, each \
+             deeper than the one before: DEPTH, 10, 30, 45.",
+        );
+    }
+    let gaps = depths.chunks_exact(2).map(|gap| [gap[0].abs(), gap[1].abs()]).collect();
+    Ok((depths.last().copied(), gaps))
 }
 
 /// Warns of a tap that does not ask for the code of rigid taps.

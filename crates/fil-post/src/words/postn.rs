@@ -47,6 +47,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
 /// A letter without a value, or a number that is not a letter's.
 pub fn letters_and_values(post: &Post, items: &mut Items) -> Result<Vec<(Letter, f64, Cause)>> {
     let numbers = items.numbered();
+    items.deny_words()?;
     if !numbers.len().is_multiple_of(2) {
         return Err(items.error("pairs of a letter and a value are needed"));
     }

@@ -11,6 +11,8 @@ use fil_machine::locations::{
 };
 
 use crate::control::needs::Act;
+use crate::control_state::Place;
+use crate::control_state::modal::Source;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::Operation;
@@ -72,7 +74,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
         (Some(angle), None, []) if angle < 0.0 && way.is_some() => {
             return Err(items.error("INCR by less than zero, and clockwise or counterclockwise"));
         }
-        (Some(angle), None, []) => stands(post, index, items)? + angle * way.unwrap_or(1.0),
+        (Some(angle), None, []) => turns_on_from(post, index, items)? + angle * way.unwrap_or(1.0),
         _ => return Err(items.error("one angle is needed")),
     };
     refuse_minus(post, index, way.filter(|_| direction.is_some()), items)?;
@@ -188,6 +190,19 @@ fn table(post: &Post, items: &mut Items) -> Result<usize> {
         (Some(_), Some(_)) => Err(items.error("the machine has two tables: name one")),
         _ => Err(items.error("the machine has no such table")),
     }
+}
+
+/// Where a table stands that is turned on from there, degrees, over any number of turns. After
+/// another work offset its angle is that of the offset before, which is a doubt.
+fn turns_on_from(post: &mut Post, index: usize, items: &Items) -> Result<f64> {
+    let Place::Shifted(here) = post.control.place(index + 3) else {
+        return stands(post, index, items);
+    };
+    let here = post.path.rotary.map_or(here, |angles| angles[index]);
+    let message = format!("the table is at {here} degrees of the work offset before");
+    let assumed = "both offsets are taken to have one zero of the table";
+    post.control.doubt(Source::Post, PostCode::ShiftedTurn.diag(message), assumed)?;
+    Ok(here)
 }
 
 /// Where a table stands, degrees, over any number of turns.

@@ -1,5 +1,6 @@
 //! The POSTF operations and the record functions of our own.
 
+use fil_cl::record::FIRST_DATA;
 use fil_cl::{Record, Word};
 use fil_diag::Diag;
 
@@ -227,6 +228,9 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     }
 
     fn change_word(&mut self, op: PostfOp, n: usize, value: Value) -> Result<Value, Box<Diag>> {
+        if op == PostfOp::SetWord {
+            self.refuse_slot(n)?;
+        }
         let was_minor = matches!(self.current()?.data_word(n), Some(Word::Minor(_)));
         let keep_minor = was_minor && op == PostfOp::SetWord;
         let word = match value {
@@ -251,6 +255,21 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         let done =
             if op == PostfOp::SetWord { record.set(n, word) } else { record.insert(n, word) };
         self.changed(done, n)
+    }
+
+    /// Words of a motion before its coordinates name it, and what they hold acts on nothing.
+    fn refuse_slot(&self, n: usize) -> Result<(), Box<Diag>> {
+        let record = self.current()?;
+        let first = record.first_value();
+        if !(FIRST_DATA..first).contains(&n) {
+            return Ok(());
+        }
+        let name = self.vocab.name(record.major);
+        let message =
+            format!("word {n} of {name} names it, and its coordinates begin at word {first}");
+        let mut diag = fault(RunCode::BadWordNumber, message);
+        diag.hint = Some(format!("X, Y, Z are words {first}, {}, {}.", first + 1, first + 2));
+        Err(diag)
     }
 
     fn changed(&mut self, done: bool, n: usize) -> Result<Value, Box<Diag>> {

@@ -417,7 +417,7 @@ fn no_motion(side: &str) -> Box<Diag> {
 #[cold]
 fn join_hint(mut diag: Box<Diag>, sign: &str) -> Box<Diag> {
     let mixed: &fil_diag::Code = RunCode::WrongType.into();
-    if sign == "+" && diag.code == mixed {
+    if sign == "+" && diag.code == mixed && diag.hint.is_none() {
         diag.hint = Some("texts are joined by a list: TT=TEXT/AA,BB".to_string());
     }
     diag

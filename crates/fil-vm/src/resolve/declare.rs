@@ -5,6 +5,7 @@ use fil_syntax::tree::{Expr, ExprKind, Item, Macro, Span, Stmt, StmtKind};
 
 use super::{ArrayEntry, ArraySize, FileSpan, MacroEntry, Resolver, SymbolKind};
 use crate::builtins;
+use crate::constant::constant;
 use crate::errors::CompileCode;
 use fil_syntax::walk::inner_bodies;
 
@@ -38,7 +39,14 @@ impl<'t> Resolver<'t, '_> {
                     if target.index.is_none()
                         && !parameters.contains(&target.name.text.as_str()) =>
                 {
-                    self.global(&target.name.text).assigned = true;
+                    let computes = match &stmt.kind {
+                        StmtKind::Assign { value, .. } => constant(value).is_none(),
+                        StmtKind::Text { .. } => true,
+                        _ => false,
+                    };
+                    let global = self.global(&target.name.text);
+                    global.assigned = true;
+                    global.computed |= computes;
                 }
                 StmtKind::Reserv { arrays } => {
                     for (name, size) in arrays {

@@ -37,8 +37,9 @@ impl<'t> Resolver<'t, '_> {
         self.refuse_other_statement(word, args, major);
         let is_text = major.is_some_and(takes_text);
         for (index, arg) in args.iter().enumerate() {
-            if !is_address(major, args, index) {
-                self.refuse_letters(arg);
+            match is_address(major, args, index) {
+                true => self.refuse_other_address(word, arg),
+                false => self.refuse_letters(arg),
             }
             match &arg.kind {
                 ExprKind::Name(name) if !self.is_variable(name) => {
@@ -151,6 +152,19 @@ impl<'t> Resolver<'t, '_> {
                 self.refuse_letters(right);
             }
             ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Call { .. } => {}
+        }
+    }
+
+    /// A letter that a statement has set to a computed value no longer names its address: T of
+    /// POSTN/OUT,T,1 would be the 24th letter, X, after tool 24.
+    fn refuse_other_address(&mut self, word: &Name, address: &Expr) {
+        let ExprKind::Name(name) = &address.kind else { return };
+        let is_computed = self.names.globals.get(name.as_str()).is_some_and(|set| set.computed);
+        if letter(name).is_some() && self.parameter(name).is_none() && is_computed {
+            let message =
+                format!("{name} is an address of {} here and is set elsewhere", word.text);
+            let hint = format!("rename the variable {name}, and leave {name} to the address");
+            self.report_with(CompileCode::NameOrWord, address.span, message, Some(hint));
         }
     }
 

@@ -161,6 +161,8 @@ pub(crate) struct Global {
     pub symbol: SymbolId,
     /// Some statement sets it.
     pub assigned: bool,
+    /// A statement sets it to a value that is no constant.
+    pub computed: bool,
     /// Its position in [`Names::arrays`].
     pub array: Option<u16>,
     /// Its position in [`Names::macros`].
@@ -324,7 +326,8 @@ impl<'t> Resolver<'t, '_> {
             let is_letter = crate::compile::names::letter(name).is_some();
             let kind = if is_letter { SymbolKind::Letter } else { SymbolKind::Variable };
             let symbol = self.symbol(name, kind);
-            let global = Global { symbol, assigned: false, array: None, macro_id: None };
+            let global =
+                Global { symbol, assigned: false, computed: false, array: None, macro_id: None };
             self.names.globals.insert(name, global);
         }
         self.names.globals.get_mut(name).expect("it was just made")

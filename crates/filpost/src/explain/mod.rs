@@ -253,7 +253,9 @@ pub fn value(number: f64) -> String {
 
 fn vocabulary_word(name: &str) -> Option<String> {
     let vocabulary = Vocabulary::new();
-    let id = vocabulary.find(name).filter(|id| vocabulary.is_known(*id))?;
+    let Some(id) = vocabulary.find(name).filter(|id| vocabulary.is_known(*id)) else {
+        return dialect_word(name);
+    };
     let class = if vocabulary.is_major(id) { "major word" } else { "minor word" };
     let code = if vocabulary.is_public(id) {
         format!(", code {}", vocabulary.code(id))
@@ -271,6 +273,16 @@ fn vocabulary_word(name: &str) -> Option<String> {
         format!("\n\n{}", plain::text(text))
     });
     Some(format!("{}  {class}{code}{post}{page}", vocabulary.name(id)))
+}
+
+/// A word of one system, which the reader of its dialect takes.
+fn dialect_word(name: &str) -> Option<String> {
+    let (_, text) = word_pages::page(name)?.split_once("\n\n")?;
+    Some(format!(
+        "{}  major word of one CAM system\n\n{}",
+        name.to_ascii_uppercase(),
+        plain::text(text)
+    ))
 }
 
 /// The settings of a group such as `rapid`.

@@ -93,6 +93,12 @@ struct State {
     threads: Threads,
     circle: Option<Waiting>,
     cycle: Option<Cycle>,
+    /// Ends and beginnings of the plates that the holes of the cycle lead through.
+    plates: Vec<f64>,
+    /// Where the tip was before the first of them.
+    came_from: Option<Point3<f64>>,
+    /// Steps of a motion record behind its first one.
+    further: VecDeque<ExpectedStep>,
     frame: Frame,
     /// LINTOL, mm.
     straight: Option<f64>,
@@ -258,7 +264,11 @@ impl<'r> ClPath<'r> {
             if self.is_plain_motion() {
                 self.skip.goes_on();
                 match self.state.motion(&self.record, &self.vocabulary) {
-                    Some(what) => return Ok(Some(Step { line, what })),
+                    Some(what) => {
+                        let further = self.state.further.drain(..);
+                        self.ready.extend(further.map(|what| Step { line, what }));
+                        return Ok(Some(Step { line, what }));
+                    }
                     None => continue,
                 }
             }
@@ -304,7 +314,10 @@ impl State {
             return Vec::new();
         }
         match record.kind {
-            kind::MOTION => self.motion(record, vocabulary).into_iter().collect(),
+            kind::MOTION => {
+                let first = self.motion(record, vocabulary);
+                first.into_iter().chain(self.further.drain(..)).collect()
+            }
             kind::SURFACE => {
                 self.circle = record.circle().map(|circle| Waiting {
                     circle,

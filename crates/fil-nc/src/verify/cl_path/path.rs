@@ -56,6 +56,9 @@ impl State {
         }
         Some(match (self.circle.take(), self.cycle) {
             (Some(waiting), _) => self.arc_to(&waiting, point, axis),
+            (None, Some(cycle)) if !self.rapid && !self.plates.is_empty() => {
+                self.hole_through_plates(&cycle, point, axis)
+            }
             (None, Some(cycle)) if !self.rapid => {
                 self.tool.point = Some(point);
                 self.tool.axis = axis;

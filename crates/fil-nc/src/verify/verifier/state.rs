@@ -99,6 +99,9 @@ pub(in super::super) struct StepMemory {
     pub(in super::super) from_hole: Option<FromHole>,
     /// The record of a stop that a tool change right behind it makes.
     pub(in super::super) held_stop: Option<u32>,
+    /// The program begins again with a later operation: what those before it have switched on is
+    /// not in force at its tool change.
+    pub(in super::super) begins_again: bool,
     /// How the spindle turned in the passes of the thread so far.
     pub(in super::super) thread_turns: Option<Turns>,
 }
