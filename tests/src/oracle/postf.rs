@@ -109,7 +109,13 @@ impl Oracle<'_> {
     fn set_word(&mut self, n: f64, value: &Value) -> Result<f64, Class> {
         let record = self.record()?;
         let n = word_number(n)?;
-        if n < 4 || n > record.len() {
+        // Two words of a motion and five of a circle only name it.
+        let first = match (record.kind, record.sub) {
+            (5000, _) => 6,
+            (3000, 2) => 9,
+            _ => 4,
+        };
+        if n < first || n > record.len() {
             return Err(Class::BadWordNumber);
         }
         let was_minor = matches!(record.data[n - 4], Word::Minor(_));
