@@ -119,7 +119,9 @@ fn section(example: &Example<'_>, compat: &str) -> String {
     let first = start.lines().count() as u32 + 1;
     page.push_str(&written(example, &cl, first));
     if example.form.is_empty() {
-        page.push_str("\n## Words by position\n\nFor POSTF(7,n), in the first record of the example:\n");
+        page.push_str(
+            "\n## Words by position\n\nFor POSTF(7,n), in the first record of the example:\n",
+        );
     } else {
         page.push_str("\nIts words:\n");
     }

@@ -162,7 +162,8 @@ fn pages() -> BTreeMap<String, String> {
         let text = page(row.word, row.form, row.doc, &rest);
         add(&mut index, format!("statement-{}", row.word), row.word, text);
     }
-    index.push_str("\nAll other words make a record for the post: see [post words](#post-words).\n");
+    index
+        .push_str("\nAll other words make a record for the post: see [post words](#post-words).\n");
     index.push_str("\n## Functions and forms\n\n");
     for row in BUILTINS {
         let extension =
