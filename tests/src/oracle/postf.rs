@@ -112,7 +112,7 @@ impl Oracle<'_> {
         // Two words of a motion and five of a circle only name it.
         let first = match (record.kind, record.sub) {
             (5000, _) => 6,
-            (3000, 2) => 9,
+            (3000, 4) => 9,
             _ => 4,
         };
         if n < first || n > record.len() {
