@@ -85,7 +85,6 @@ impl ReadSet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Commons;
     use crate::locations as loc;
 
     #[test]
