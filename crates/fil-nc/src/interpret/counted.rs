@@ -2,16 +2,11 @@
 //! without its own are those of one of the two, which SETMS of a SINUMERIK or M codes of the
 //! machine's builder choose. What the other one does goes on meanwhile.
 
-use super::Fault;
 use super::state::State;
 use super::words::Words;
+use super::{Fault, refuse};
 use crate::dialect::Auxiliary;
-use crate::errors::NcCode;
 use crate::motion::Spindle;
-
-fn refuse<T>(why: &str) -> Result<T, Fault> {
-    Err(Fault::new(NcCode::NoMeaning, why))
-}
 
 impl State<'_> {
     /// The control counts the second spindle, or the main one.

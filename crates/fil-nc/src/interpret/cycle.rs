@@ -1,8 +1,8 @@
 //! Drilling cycles as single motions.
 
-use super::Fault;
 use super::state::State;
 use super::words::{AxisWord, Words, letter};
+use super::{Fault, refuse};
 use crate::dialect::{Amount, Auxiliary, CycleKind, DepthForm, Habit, Role};
 use crate::errors::NcCode;
 use crate::motion::{Course, Event, Spindle};
@@ -101,10 +101,10 @@ impl State<'_> {
         let mut said = axes.iter();
         let (Some(&AxisWord { axis, value, increment: false }), None) = (said.next(), said.next())
         else {
-            return no_meaning("G71 needs one position along the tool");
+            return refuse("G71 needs one position along the tool");
         };
         if axis != self.plane || !self.absolute {
-            return no_meaning("G71 needs a position along the tool, in G90");
+            return refuse("G71 needs a position along the tool, in G90");
         }
         self.cycle.level = Some(self.position(axis, value));
         Ok(())
@@ -119,16 +119,16 @@ impl State<'_> {
             _ => None,
         });
         let [to_level] = returns.collect::<Vec<_>>()[..] else {
-            return no_meaning("a cycle needs M53 or M54 in its block");
+            return refuse("a cycle needs M53 or M54 in its block");
         };
         if to_level {
             let Some(level) = self.cycle.level else {
-                return no_meaning("M53 needs a G71 before it");
+                return refuse("M53 needs a G71 before it");
             };
             (cycle.initial, cycle.initial_known) = (level, true);
         }
         self.cycle.returns_initial = to_level;
-        if self.absolute { Ok(()) } else { no_meaning("a cycle in G91 is not followed here") }
+        if self.absolute { Ok(()) } else { refuse("a cycle in G91 is not followed here") }
     }
 
     /// A hole of the cycle in force.
@@ -246,10 +246,6 @@ impl State<'_> {
         self.modes.spindle.turn = turning;
         Ok(())
     }
-}
-
-fn no_meaning<T>(why: &str) -> Result<T, Fault> {
-    Err(Fault::new(NcCode::NoMeaning, why))
 }
 
 /// How the spindle turns on the way out of a tap, which the cycle says and not the way it

@@ -6,11 +6,10 @@
 //! with arcs by I and J; neither takes rapid traverse; cylindrical interpolation begins
 //! under G1, names its radius by the word of the rotary axis, and 0 ends it.
 
-use super::Fault;
 use super::state::{Axes, State};
 use super::words::{AxisWord, Words};
+use super::{Fault, refuse};
 use crate::dialect::{Amount, FeedMode, Function, Group};
-use crate::errors::NcCode;
 use crate::motion::{Compensation, Course, Event, Spindle};
 
 /// Number of the axis C.
@@ -24,10 +23,6 @@ const NEAREST: f64 = 0.04;
 
 /// Lengths nearer than this are one in the last digits of any control, mm.
 const DIGITS: f64 = 2e-3;
-
-fn refuse<T>(why: &str) -> Result<T, Fault> {
-    Err(Fault::new(NcCode::NoMeaning, why))
-}
 
 impl State<'_> {
     /// The main spindle becomes the axis C or a spindle again; it must stand, and so must the

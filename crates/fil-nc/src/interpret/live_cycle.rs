@@ -4,16 +4,11 @@
 //! depth is a position, and the tool returns to the level before. Whether R counts as a
 //! radius on X is a matter of a parameter; so is what Q means, which the machine's settings say.
 
-use super::Fault;
 use super::cycle::{Cycle, R};
 use super::state::State;
 use super::words::{AxisWord, Words};
+use super::{Fault, refuse};
 use crate::dialect::{Amount, CycleKind, Role};
-use crate::errors::NcCode;
-
-fn refuse<T>(why: &str) -> Result<T, Fault> {
-    Err(Fault::new(NcCode::NoMeaning, why))
-}
 
 impl State<'_> {
     /// A block with the code of a cycle of live tools: the cycle and its first hole.

@@ -73,6 +73,11 @@ impl Fault {
     }
 }
 
+/// Refuses a word that means nothing where it stands, or a function that is not followed there.
+fn refuse<T>(why: &str) -> Result<T, Fault> {
+    Err(Fault::new(NcCode::NoMeaning, why))
+}
+
 /// A program that is run line by line.
 pub struct Running<'a> {
     control: Control<'a>,

@@ -7,9 +7,9 @@
 //! have is not followed: U, a taper by A or I, starts by Q, a lead that grows by E, a flank, the
 //! passes of M33, M73 and M74, a way out behind M23.
 
-use super::Fault;
 use super::state::State;
 use super::words::{Words, letter};
+use super::{Fault, refuse};
 use crate::dialect::{Auxiliary, Function, Group};
 use crate::errors::NcCode;
 
@@ -25,10 +25,6 @@ const ZIGZAG: u32 = 33;
 
 /// Chips of the same area.
 const EQUAL_CHIPS: u32 = 75;
-
-fn refuse<T>(why: &str) -> Result<T, Fault> {
-    Err(Fault::new(NcCode::NoMeaning, why))
-}
 
 /// An M word of a block belongs to its G71.
 pub(super) fn takes(words: &Words, code: u32) -> bool {

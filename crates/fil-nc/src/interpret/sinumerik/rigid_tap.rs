@@ -4,17 +4,12 @@
 //! the way the spindle turns (positive as M3); G332 has the same lead and turns the spindle back;
 //! S is its speed, without M3 or M4.
 
-use super::super::Fault;
 use super::super::cycle::reversed;
+use super::super::{Fault, refuse};
 use super::Sinumerik;
 use super::block::Said;
 use crate::dialect::FeedMode;
-use crate::errors::NcCode;
 use crate::motion::{Course, Rate, Spindle};
-
-fn refuse<T>(why: &str) -> Result<T, Fault> {
-    Err(Fault::new(NcCode::NoMeaning, why))
-}
 
 impl Sinumerik<'_> {
     /// The way into a hole along Z or X, or back out of it.

@@ -5,20 +5,15 @@
 //! where C is 0; TRACYL makes Y the way around a cylinder of the diameter that it names; TRAFOOF
 //! ends both. Each wants compensation off. DIAMOF makes X a radius until DIAMON.
 
-use super::super::Fault;
+use super::super::{Fault, refuse};
 use super::Sinumerik;
 use super::block::Said;
 use super::line::{Value, Word};
 use crate::dialect::{FeedMode, Function, Habit, Numbered};
-use crate::errors::NcCode;
 use crate::motion::{Compensation, Spindle};
 
 /// Number of the axis C.
 const C: usize = 3;
-
-fn refuse<T>(why: &str) -> Result<T, Fault> {
-    Err(Fault::new(NcCode::NoMeaning, why))
-}
 
 impl Sinumerik<'_> {
     /// `SETMS(2)` and `SETMS`.
