@@ -1,5 +1,7 @@
 //! Which blocks of two programs belong together.
 
+use std::ops::Range;
+
 /// Largest table of the longest common subsequence; longer middles are left unmatched.
 const LARGEST_TABLE: usize = 16_000_000;
 
@@ -15,6 +17,18 @@ pub(crate) fn matches(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     found.extend(by_table(middle_a, middle_b).into_iter().map(|(i, j)| (i + before, j + before)));
     found.extend((0..after).map(|at| (a.len() - after + at, b.len() - after + at)));
     found
+}
+
+/// Runs of items that belong to none of the other list, in both lists; one of the two may be empty.
+pub(crate) fn gaps(a: &[u64], b: &[u64]) -> Vec<(Range<usize>, Range<usize>)> {
+    let (mut i, mut j, mut gaps) = (0, 0, Vec::new());
+    for (to_i, to_j) in matches(a, b).into_iter().chain([(a.len(), b.len())]) {
+        if i != to_i || j != to_j {
+            gaps.push((i..to_i, j..to_j));
+        }
+        (i, j) = (to_i + 1, to_j + 1);
+    }
+    gaps
 }
 
 fn by_table(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
@@ -58,5 +72,11 @@ mod tests {
             [(0, 0), (2, 1), (3, 3), (5, 5)]
         );
         assert_eq!(matches(&[], &[1]), []);
+    }
+
+    #[test]
+    fn what_is_not_matched_are_gaps() {
+        assert_eq!(gaps(&[1, 2, 4], &[1, 3, 4, 5]), [(1..2, 1..2), (3..3, 3..4)]);
+        assert_eq!(gaps(&[1], &[1]), []);
     }
 }

@@ -173,16 +173,12 @@ pub(crate) fn compare(bench: &Bench<'_>, state: &State, at: usize) -> LearnedPai
     };
     let Some(own) = &state.programs[at] else { return result };
     let lines = words::numbered_lines;
-    let matches = align::matches(&lines(&own.blocks), &lines(&pair.proven.blocks));
-    result.equal = matches.len();
-    let (mut i, mut j) = (0, 0);
-    for (to_i, to_j) in matches.into_iter().chain([(own.blocks.len(), pair.proven.blocks.len())]) {
-        if i != to_i || j != to_j {
-            let texts = |blocks: &[Block]| blocks.iter().map(Block::whole).collect();
-            let (proven, ours) = (&pair.proven.blocks[j..to_j], &own.blocks[i..to_i]);
-            result.left.push((j + 1, texts(proven), texts(ours)));
-        }
-        (i, j) = (to_i + 1, to_j + 1);
+    let gaps = align::gaps(&lines(&own.blocks), &lines(&pair.proven.blocks));
+    result.equal = own.blocks.len() - gaps.iter().map(|(ours, _)| ours.len()).sum::<usize>();
+    for (ours, proven) in gaps {
+        let texts = |blocks: &[Block]| blocks.iter().map(Block::whole).collect();
+        let at = proven.start + 1;
+        result.left.push((at, texts(&pair.proven.blocks[proven]), texts(&own.blocks[ours])));
     }
     result
 }

@@ -7,7 +7,7 @@ use filpost::reads::ReadSet;
 use crate::align;
 use crate::change::{self, Changes, Key};
 use crate::trial::{Bench, State};
-use crate::words::{Block, hash};
+use crate::words::{Block, lines};
 
 /// Settings that were read while the pairs were posted.
 #[derive(Debug, Default)]
@@ -96,18 +96,10 @@ impl Noted {
 /// The own blocks that the proven program lacks, those beside what it has more, and their
 /// neighbors.
 fn wrong_blocks(own: &[Block], proven: &[Block]) -> Vec<bool> {
-    let texts = |blocks: &[Block]| -> Vec<u64> {
-        blocks.iter().map(|block| hash(block.text.as_bytes())).collect()
-    };
     let mut wrong = vec![false; own.len()];
-    let (mut i, mut j) = (0, 0);
-    let ends = [(own.len(), proven.len())];
-    for (to_i, to_j) in align::matches(&texts(own), &texts(proven)).into_iter().chain(ends) {
-        if i != to_i || j != to_j {
-            let last = (to_i + 1).min(own.len());
-            wrong[i.saturating_sub(1)..last].fill(true);
-        }
-        (i, j) = (to_i + 1, to_j + 1);
+    for (ours, _) in align::gaps(&lines(own), &lines(proven)) {
+        let last = (ours.end + 1).min(own.len());
+        wrong[ours.start.saturating_sub(1)..last].fill(true);
     }
     wrong
 }

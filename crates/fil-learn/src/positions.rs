@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::align;
 use crate::change::{self, Changes, Key, Value};
 use crate::trial::{Bench, State};
-use crate::words::{Block, hash};
+use crate::words::{Block, lines};
 
 /// Most positions that are tried.
 const MOST_POSITIONS: usize = 24;
@@ -16,9 +16,10 @@ pub(crate) fn proposals(bench: &Bench<'_>, state: &State) -> Vec<Changes> {
     let mut positions: BTreeSet<[Option<i64>; 3]> = BTreeSet::new();
     for (own, pair) in state.programs.iter().zip(&bench.pairs) {
         let Some(own) = own else { continue };
-        for gap in gaps(&own.blocks, &pair.proven.blocks) {
+        let proven = &pair.proven.blocks;
+        for (_, gap) in align::gaps(&lines(&own.blocks), &lines(proven)) {
             let mut whole = [None; 3];
-            for block in gap {
+            for block in &proven[gap] {
                 let Some(position) = position(block) else { continue };
                 positions.insert(position);
                 for (axis, value) in position.into_iter().enumerate() {
@@ -62,22 +63,4 @@ fn position(block: &Block) -> Option<[Option<i64>; 3]> {
         }
     }
     position.iter().any(Option::is_some).then_some(position)
-}
-
-/// Runs of blocks that only the proven program has.
-fn gaps<'b>(own: &[Block], proven: &'b [Block]) -> Vec<&'b [Block]> {
-    let texts = |blocks: &[Block]| -> Vec<u64> {
-        blocks.iter().map(|block| hash(block.text.as_bytes())).collect()
-    };
-    let mut gaps = Vec::new();
-    let mut from = 0;
-    for (_, to) in
-        align::matches(&texts(own), &texts(proven)).into_iter().chain([(own.len(), proven.len())])
-    {
-        if from < to {
-            gaps.push(&proven[from..to]);
-        }
-        from = to + 1;
-    }
-    gaps
 }

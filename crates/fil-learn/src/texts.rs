@@ -9,7 +9,7 @@ use filpost::Program;
 use crate::align;
 use crate::change::{Changes, Key, Value};
 use crate::trial::{Bench, State};
-use crate::words::{self, Word, hash};
+use crate::words::{self, Word, lines};
 
 /// Indexes of the lists of texts.
 const START: usize = 0;
@@ -122,21 +122,15 @@ fn without_one(key: Key, texts: &[String]) -> impl Iterator<Item = Changes> + '_
 fn gaps(bench: &Bench<'_>, state: &State, program: &Program, pair: usize) -> Option<Gaps> {
     let own = state.programs[pair].as_ref()?;
     let proven = &bench.pairs[pair].proven;
-    let lines = |blocks: &[crate::words::Block]| -> Vec<u64> {
-        blocks.iter().map(|block| hash(block.text.as_bytes())).collect()
-    };
-    let matches = align::matches(&lines(&own.blocks), &lines(&proven.blocks));
     let mut gaps = Gaps { before: vec![Vec::new(); own.blocks.len() + 1], ..Gaps::default() };
-    let (mut own_at, mut proven_at) = (0, 0);
-    for (i, j) in matches.into_iter().chain([(own.blocks.len(), proven.blocks.len())]) {
-        let missing = &proven.blocks[proven_at..j];
+    for (ours, missing) in align::gaps(&lines(&own.blocks), &lines(&proven.blocks)) {
+        let missing = &proven.blocks[missing];
         let texts: Vec<String> = missing.iter().map(|block| block.text.clone()).collect();
         // Where ours has other blocks, either end of them may be the place.
-        if own_at != i {
-            gaps.before[own_at].extend(texts.iter().cloned());
+        if !ours.is_empty() {
+            gaps.before[ours.start].extend(texts.iter().cloned());
         }
-        gaps.before[i].extend(texts);
-        (own_at, proven_at) = (i + 1, j + 1);
+        gaps.before[ours.end].extend(texts);
     }
     gaps.changes = changes(bench, program, pair, own.blocks.len());
     Some(gaps)

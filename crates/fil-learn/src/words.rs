@@ -20,6 +20,11 @@ impl Block {
     }
 }
 
+/// The text of each block without its sequence number, as a hash.
+pub(crate) fn lines(blocks: &[Block]) -> Vec<u64> {
+    blocks.iter().map(|block| hash(block.text.as_bytes())).collect()
+}
+
 /// Each block with its sequence number, as a hash.
 pub(crate) fn numbered_lines(blocks: &[Block]) -> Vec<u64> {
     blocks.iter().map(|block| hash(block.whole().as_bytes())).collect()
