@@ -95,7 +95,6 @@ impl ControlState {
                 self.set(RETURN_LEVEL, code);
                 self.doubt(letters::R);
             }
-            Meaning::ReturnLevel => self.doubt(letters::XYZ[2]),
             Meaning::TurningCycle => {
                 self.forget(MOTION, source);
                 self.doubt_axes();

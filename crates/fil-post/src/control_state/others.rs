@@ -31,7 +31,7 @@ struct Ways {
     returns: bool,
     /// The frame may be turned.
     turns: bool,
-    /// The words of the block are no positions, such as those of G4.
+    /// The words of the block are no positions, such as those of G4 and of G71 of an OSP.
     pauses: bool,
     /// The tool is changed.
     changes: bool,
@@ -66,7 +66,7 @@ impl Ways {
             Meaning::LengthOffset(_) => self.length = true,
             Meaning::WorkPlane | Meaning::Tcpc => self.turns = true,
             Meaning::TurningCycle => (self.astray, self.returns) = (true, true),
-            Meaning::Dwell => self.pauses = true,
+            Meaning::Dwell | Meaning::ReturnLevel => self.pauses = true,
             _ => {}
         }
     }

@@ -1,7 +1,7 @@
 //! Coolant.
 
 use fil_diag::Result;
-use fil_machine::locations as loc;
+use fil_machine::locations::{self as loc, Placement};
 use fil_machine::setting::CodeAt;
 
 use crate::control::{Control, Function};
@@ -22,10 +22,12 @@ pub fn write(control: &mut Control, coolant: Coolant) -> Result<()> {
         let [before, now] = [before, at].map(|at| off_code(control, Some(at)));
         before != now || control.commons.read(loc::COOLANT_PRINT_OFF)
     });
-    if ends {
-        write_off(control)?;
+    if !ends {
+        return switch_on(control, at);
     }
-    switch_on(control, at)
+    // The tool must not run dry: the other coolant does not wait for a motion.
+    write_off(control)?;
+    place(control, at, Placement::BlockOfItsOwn)
 }
 
 /// Codes of coolants, and the code that ends each where it is not that of all.
@@ -49,10 +51,13 @@ fn off_code(control: &Control, of: Option<CodeAt>) -> CodeAt {
 /// # Errors
 /// As [`Control::write_block`].
 pub(crate) fn switch_on(control: &mut Control, at: CodeAt) -> Result<()> {
+    place(control, at, control.commons.read(loc::COOLANT_PLACEMENT))
+}
+
+fn place(control: &mut Control, at: CodeAt, placement: Placement) -> Result<()> {
     control.coolant = Some(at);
     control.tools.coolant = None;
     add(control, at);
-    let placement = control.commons.read(loc::COOLANT_PLACEMENT);
     control.place_block(Function::Coolant, placement)
 }
 
