@@ -8,7 +8,9 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
-import { tests } from "./studio.mjs";
+import { behaving } from "./page.mjs";
+import { running } from "./running.mjs";
+import { making } from "./studio.mjs";
 
 const [program, executablePath, pictures] = process.argv.slice(2);
 const args = [
@@ -85,6 +87,7 @@ async function studio({ viewport = { width: 1280, height: 800 }, hash } = {}) {
   return { ...made, picture: (name) => picture(made.page, name) };
 }
 
+const tests = { ...making, ...running, ...behaving };
 let failed = 0;
 const known = isPlayground ? { ...(await import("./alone.mjs")).alone, ...tests } : tests;
 const wanted = process.env.FILPOST_STUDIO_TEST ?? "";
