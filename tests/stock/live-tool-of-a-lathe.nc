@@ -2,7 +2,7 @@
 ; stock: cylinder 41x80
 ; tool: 1=D6
 ; note: a mill beside the axis of the spindle
-; error: E0962 at 13
+; finding: warning W0978 at 13: tool 1: drill or mill away from the spindle axis
 %
 O2001
 N10 G98 G18 G40

@@ -15,6 +15,7 @@ use crate::locations::INPUT_TRANSLATE;
 use crate::post_options::PostOptions;
 use crate::reads::Reads;
 use crate::setting::Setting;
+use crate::simulate_settings::{SimulateSetting, SimulateSettings};
 use crate::stored;
 
 /// An absent integer (shown as NA in reports).
@@ -104,6 +105,8 @@ pub struct Commons {
     options: PostOptions,
     /// What calls and codes of the shop do.
     effects: Effects,
+    /// What `filpost simulate` cuts.
+    simulate: SimulateSettings,
     /// Letters that were given a tape position and no digits: bit n is letter n of the alphabet.
     wants_digits: u32,
     /// Where reads are noted, while somebody asks for them.
@@ -125,6 +128,7 @@ impl Commons {
             levels: Levels::default(),
             options: PostOptions::default(),
             effects: Effects::default(),
+            simulate: SimulateSettings::default(),
             wants_digits: 0,
             reads: None,
         }
@@ -218,6 +222,16 @@ impl Commons {
     /// What calls and codes of the shop do: `[effects]`.
     pub fn effects(&self) -> &Effects {
         &self.effects
+    }
+
+    /// What `filpost simulate` cuts: `[simulate]`.
+    pub fn simulate(&self) -> &SimulateSettings {
+        &self.simulate
+    }
+
+    /// Sets a key of `[simulate]`.
+    pub(crate) fn set_simulate(&mut self, setting: SimulateSetting) {
+        self.simulate.set(setting);
     }
 
     /// Adds a rule of `[effects]`; false for a text that names no block.

@@ -57,6 +57,7 @@ pub mod rotary_feed_rules;
 mod rotation;
 pub mod rounding;
 pub mod setting;
+pub mod simulate_settings;
 pub mod stored;
 pub mod tables;
 pub mod tape_style;

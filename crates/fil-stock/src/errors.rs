@@ -10,7 +10,7 @@ fil_diag::codes! {
         /// A motion that can't be simulated.
         NotSimulated = 962, Error, "move can't be simulated",
             "The simulation handles a mill with three axes in one coordinate system and the tool upright, and a lathe with inserts and drills on the spindle axis. It would be wrong for this program.",
-            "Simulate only the part of the program with the tool upright and one work offset, on a lathe without live tools.";
+            "Simulate only the part of the program with the tool upright and one work offset.";
         /// A grid with too many cells.
         TooFine = 963, Error, "grid is too fine for the stock",
             "Each cell of the grid takes memory. The number of cells is limited to 40 million.",
@@ -51,5 +51,9 @@ fil_diag::codes! {
         UnknownStart = 977, Warning, "cut from an unknown position",
             "The position before the move is unknown, so the move is not simulated.",
             "Position all axes at rapid before the first cut, and again after a move in machine coordinates and a new work offset.";
+        /// A live tool or the sub-spindle of a lathe.
+        NotTurning = 978, Warning, "live tool or sub-spindle move is not simulated",
+            "The simulation of a lathe turns and drills in the main spindle. What live tools mill, and what is cut in the sub-spindle, stays in its stock.",
+            "Check these blocks with the plot or a dry run; `--deny W0978` fails on them.";
     }
 }

@@ -35,6 +35,8 @@ pub struct Finding {
     /// Where it is deepest: X and Y of the cell, Z of the tool's surface, mm in the coordinates of
     /// the part.
     pub at: [f64; 3],
+    /// Why the motion is not simulated; empty for one that is.
+    pub reason: &'static str,
     /// What made the first line, where that is known.
     pub source: Option<Source>,
 }
@@ -48,6 +50,9 @@ impl Finding {
         }
         if code(StockCode::UnknownStart) {
             return "the motion is not simulated".into();
+        }
+        if code(StockCode::NotTurning) {
+            return format!("tool {}: {}", self.tool, self.reason);
         }
         let [x, y, z] = self.at.map(short);
         let (tool, depth) = (self.tool, short(self.depth));
@@ -116,8 +121,11 @@ pub(crate) struct Findings<'l> {
 }
 
 /// A fault of one motion.
+#[derive(Default)]
 pub(crate) struct Fault {
-    pub code: StockCode,
+    pub code: Option<StockCode>,
+    /// Why the motion is not simulated.
+    pub reason: &'static str,
     pub depth: f64,
     pub length: f64,
     pub at: [f64; 3],
@@ -130,7 +138,8 @@ impl<'l> Findings<'l> {
 
     /// Adds a fault of a motion.
     pub fn add(&mut self, fault: &Fault, line: u32, tool: u32, motion: u64) {
-        let code: &'static Code = fault.code.into();
+        let Some(code) = fault.code else { return };
+        let code: &'static Code = code.into();
         let severity = match self.levels.set_for(code) {
             Some(Level::Allow) => return,
             Some(Level::Warn) => Severity::Warning,
@@ -138,7 +147,8 @@ impl<'l> Findings<'l> {
             None => code.severity(),
         };
         let goes_on = |(found, last): &&mut (Finding, u64)| {
-            found.code == code && found.tool == tool && motion - *last <= 1
+            let is_same = found.code == code && found.reason == fault.reason;
+            is_same && found.tool == tool && motion - *last <= 1
         };
         self.fails |= severity == Severity::Error;
         if let Some((found, last)) = self.list.iter_mut().rev().take(8).find(goes_on) {
@@ -154,9 +164,19 @@ impl<'l> Findings<'l> {
             self.more += 1;
             return;
         }
-        let Fault { depth, length, at, .. } = *fault;
-        let found =
-            Finding { code, severity, line, last: line, tool, depth, length, at, source: None };
+        let Fault { depth, length, at, reason, .. } = *fault;
+        let found = Finding {
+            code,
+            severity,
+            line,
+            last: line,
+            tool,
+            depth,
+            length,
+            at,
+            reason,
+            source: None,
+        };
         self.list.push((found, motion));
     }
 

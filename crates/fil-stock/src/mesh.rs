@@ -57,6 +57,11 @@ impl Mesh {
         self.size
     }
 
+    /// Its triangles.
+    pub(crate) fn triangles(&self) -> &[Triangle] {
+        &self.triangles
+    }
+
     /// The greatest and the least Z of the surface over each cell's center; infinite where there
     /// is none.
     pub(crate) fn heights(&self, grid: &Grid) -> (Vec<f32>, Vec<f32>) {

@@ -127,7 +127,7 @@ pub struct Simulated {
 /// # Errors
 /// What has no sure meaning on the machine; E0961 for tools without a size, E0962 for a program
 /// that three axes in one coordinate system do not describe, E0963 for too many cells, E0965 for
-/// `auto` stock of a program without cuts below Z0.
+/// stock without a volume, such as `auto` of a program without cuts below Z0.
 pub fn simulate(program: &Program<'_>, job: &Job<'_>) -> Result<Simulated, Box<Diag>> {
     let survey = Survey::of(program)?;
     survey.refuse(program, job)?;
@@ -138,6 +138,13 @@ pub fn simulate(program: &Program<'_>, job: &Job<'_>) -> Result<Simulated, Box<D
         return StockCode::BadDescription.err("stock `auto`: the program has no cut below Z0");
     };
     let field = HeightField::new(job.stock, &size, job.grid)?;
+    if field.volume() <= 0.0 {
+        return match job.stock {
+            Stock::Auto => StockCode::BadDescription
+                .err("stock `auto`: the box around the cuts has no width; give its sides"),
+            _ => StockCode::BadDescription.err("the stock has no volume"),
+        };
+    }
     let [x, y] = field.grid().step;
     let mut running = Running {
         program,
@@ -281,7 +288,8 @@ impl Running<'_> {
         ];
         for (code, contact) in contacts.iter().filter(|(_, contact)| contact.is_some()) {
             let Contact { depth, at, .. } = *contact;
-            self.add(&Fault { code: *code, depth, length: contact.length(way), at }, motion);
+            let (code, length) = (Some(*code), contact.length(way));
+            self.add(&Fault { code, depth, length, at, ..Fault::default() }, motion);
         }
     }
 
@@ -292,7 +300,7 @@ impl Running<'_> {
 
     /// A finding without a place in the stock.
     fn note(&mut self, code: StockCode, motion: &Move) {
-        self.add(&Fault { code, depth: 0.0, length: 0.0, at: [0.0; 3] }, motion);
+        self.add(&Fault { code: Some(code), ..Fault::default() }, motion);
     }
 
     fn add(&mut self, fault: &Fault, motion: &Move) {

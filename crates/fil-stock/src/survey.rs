@@ -14,6 +14,9 @@ use crate::tool::Body;
 /// A tool axis with less than this beside Z is upright.
 const UPRIGHT: f64 = 1e-7;
 
+/// Axes of turning, a bit each.
+const X_AND_Z: usize = 0b101;
+
 /// How a tool is first used: the line of its first cut.
 #[derive(Default)]
 pub(crate) struct Survey {
@@ -74,6 +77,12 @@ impl Survey {
     /// True when the end of a motion is known.
     pub fn knows(&self, motion: &Move) -> bool {
         unknown(motion) & self.named == 0
+    }
+
+    /// True when X and Z are known at the end of a motion of a lathe: C and Y do not change what an
+    /// insert cuts.
+    pub fn knows_turning(&self, motion: &Move) -> bool {
+        unknown(motion) & self.named & X_AND_Z == 0
     }
 
     /// The first work offset that cuts: the stock counts from it. `None` where nothing cuts.

@@ -133,7 +133,7 @@ pub enum Body {
 pub struct Tool {
     /// The part that cuts.
     pub body: Body,
-    /// From the tip to the holder, mm; `None` when not known.
+    /// From the tip to the holder, mm, of an insert along X; `None` when not known.
     pub length: Option<f64>,
     /// The holder from below; empty when not known.
     pub holder: Vec<Cylinder>,
@@ -152,7 +152,9 @@ impl Tool {
     /// length of a piece of the holder (`H40x60`, from below, may be there again), `C` diameter
     /// without teeth around the center. A turning insert has `Q` instead, the direction of its tip
     /// (1 to 4), `R` nose radius, `W` width of a grooving insert, `A` angle between the trailing
-    /// edge and Z (5 degrees), `S` length of that edge along Z (10 mm). Lengths are mm, or inch with
+    /// edge and Z (5 degrees), `S` length of that edge along Z (10 mm), `L` distance from the tip to
+    /// the holder along X, `H` width along Z and length of the shank, of a boring bar (Q1, Q2) its
+    /// thickness along X and its length. Lengths are mm, or inch with
     /// `in` at the end.
     ///
     /// # Errors
@@ -225,11 +227,14 @@ impl Letters {
         Ok(Tool { body, length: value('L'), holder: self.holder, toothless })
     }
 
-    fn insert(&self, direction: f64) -> Result<Tool, String> {
+    fn insert(self, direction: f64) -> Result<Tool, String> {
         let value = |letter: char| self.values.get(&letter).copied();
-        let is_other = |letter: &&char| !"QRWAS".contains(**letter);
-        if self.values.keys().find(is_other).is_some() || !self.holder.is_empty() {
-            return Err("an insert (Q) has R, W, A and S".into());
+        let is_other = |letter: &&char| !"QRWASL".contains(**letter);
+        if self.values.keys().find(is_other).is_some() {
+            return Err("an insert (Q) has R, W, A, S, L and H".into());
+        }
+        if !self.holder.is_empty() && value('L').is_none() {
+            return Err("a holder (H) needs the distance from the tip to it (L)".into());
         }
         let nose = value('R').unwrap_or(0.0);
         let number = if direction.fract() == 0.0 { direction as u32 } else { 0 };
@@ -244,7 +249,8 @@ impl Letters {
         if is_narrow || insert.trailing >= 90.0 {
             return Err("an insert is at least as wide as its nose, and A is below 90".into());
         }
-        Ok(Tool::new(Body::Insert(insert)))
+        let length = value('L');
+        Ok(Tool { length, holder: self.holder, ..Tool::new(Body::Insert(insert)) })
     }
 }
 
@@ -357,7 +363,7 @@ mod tests {
         let Body::Insert(insert) = tool.body else { panic!("{tool:?}") };
         assert_eq!((insert.nose, insert.along_x, insert.along_z), (0.8, -1.0, -1.0));
         assert_eq!((insert.width, insert.trailing), (None, 8.0));
-        for text in ["Q5", "Q3D10", "Q3R2W3", "Q3A90", "Q3H10x10"] {
+        for text in ["Q5", "Q3D10", "Q3R2W3", "Q3A90", "Q3H10x10", "Q3C1"] {
             assert_eq!(Tool::read(text).expect_err(text).code.name(), "E0965", "{text}");
         }
     }

@@ -1,6 +1,7 @@
 //! `filpost verify`
 
 use std::io::{Seek, Write};
+use std::path::{Path, PathBuf};
 
 use filpost::cl::reader::Options;
 use filpost::map::{Digest, MapReader};
@@ -12,7 +13,7 @@ use filpost::verify::{Reference, as_json};
 use filpost::{Error, Program, files, select, stock};
 
 use crate::args::{self, VerifyArgs};
-use crate::simulate::{self, Material};
+use crate::simulate::{self, Material, Places};
 use crate::summary::counted;
 use crate::{Status, audit, output, setup};
 
@@ -21,15 +22,23 @@ use crate::{Status, audit, output, setup};
 /// # Errors
 /// Files that can't be read, a program or a CL file that makes no sense.
 pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
-    let material = Material::read(&args.material)?;
-    if material.is_some() && [&args.cl, &args.nc].iter().any(|path| path.as_os_str() == "-") {
+    let is_cut = args.material.is_asked();
+    if is_cut && [&args.cl, &args.nc].iter().any(|path| path.as_os_str() == "-") {
         output::say("error: with --stock the CL file and the program are files");
         return Ok(Status::Usage);
     }
     let mut cl = output::open(&args.cl)?;
     let nc = Source::file(output::open(&args.nc)?);
     let name = output::input_name(&args.nc);
-    let (mut program, title) = program(args, &mut cl, (&nc, &name), None)?;
+    let (mut program, title, post) = program(args, &mut cl, (&nc, &name), None)?;
+    let places = Places { files: vec![&args.cl, &args.nc], post: &post, root: Path::new("") };
+    let material = match is_cut {
+        true => Material::read(&args.material, program.commons(), &places)?,
+        false => None,
+    };
+    if is_cut && material.is_none() {
+        return Ok(simulate::without_stock());
+    }
     if let Some(map) = &args.map {
         return audited(args, &program, cl, (nc, &name), map);
     }
@@ -119,7 +128,7 @@ fn as_plain(
     let nc = Source::file(output::open(&args.nc)?);
     // A post without this option has one style.
     let named = (&nc, &*output::input_name(&args.nc));
-    let Ok((plain, _)) = self::program(args, &mut cl, named, Some(STYLE)) else { return Ok(None) };
+    let Ok((plain, ..)) = self::program(args, &mut cl, named, Some(STYLE)) else { return Ok(None) };
     let found = compare(args, &plain, cl, &nc)?.0;
     let count = |report: &Report| report.findings.len() as u64 + report.more;
     Ok((count(&found) < count(report)).then_some((plain, found)))
@@ -185,7 +194,7 @@ fn program(
     cl: &mut std::fs::File,
     (nc, nc_name): (&Source<'_>, &str),
     option: Option<[&str; 2]>,
-) -> Result<(Program, String), Error> {
+) -> Result<(Program, String, Vec<PathBuf>), Error> {
     let folders = select::beside_first(&args.cl, &args.post_path);
     let name = output::input_name(&args.cl);
     let options = options(args)?;
@@ -202,7 +211,7 @@ fn program(
     let builder = setup::granted(named.builder, &args.grants);
     let builder =
         option.into_iter().fold(builder, |builder, [name, value]| builder.option(name, value));
-    Ok((builder.build()?, named.title))
+    Ok((builder.build()?, named.title, named.inputs))
 }
 
 /// The finding, and the block it is about.

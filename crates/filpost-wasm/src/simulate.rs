@@ -2,10 +2,10 @@
 
 use filpost::cl::reader::Options;
 use filpost::plot::{ClText, Text};
-use filpost::simulate::{Setup, as_json, cl_tools};
+use filpost::simulate::{Setup, as_json, cl_tools, stock_of};
 use filpost::stock::errors::StockCode;
-use filpost::stock::{Job, Left, Mesh, Offsets, Stock, Tool, Tools, length};
-use filpost::{Error, simulate};
+use filpost::stock::{Job, Left, Mesh, Stock, Tool, Tools, length};
+use filpost::{Commons, Error, simulate};
 use serde_json::{Value, json};
 
 use crate::fields::{Fields, Named};
@@ -21,6 +21,7 @@ pub(crate) struct Simulate {
     nc: String,
     cl: Option<Named>,
     setup: Option<Named>,
+    case: Option<Named>,
     stock: Option<String>,
     part: Option<Named>,
     /// The meshes that the setup file names.
@@ -37,6 +38,7 @@ impl Simulate {
             nc: fields.needed("nc")?,
             cl: fields.file("cl")?,
             setup: fields.file("setup")?,
+            case: fields.file("case")?,
             stock: fields.text("stock")?,
             part: fields.file("part")?,
             meshes: fields.files("meshes")?,
@@ -59,11 +61,10 @@ impl Simulate {
     fn cut(&self) -> Result<Value, Error> {
         let commons = self.machine.builder().build_machine()?;
         let wrong = |what: String| Error::Run(StockCode::BadDescription.diag(what));
-        let setup = self.setup.as_ref().map(|file| Setup::read(&file.name, &file.text));
-        let setup = setup.transpose()?.unwrap_or_default();
+        let setup = self.setup(&commons)?;
         let given = self.stock.as_ref().or(setup.stock.as_ref());
         let given = given.ok_or_else(|| wrong("there is no stock".into()))?;
-        let stock = match Stock::read(given).map_err(Error::Run)? {
+        let stock = match stock_of(given)? {
             Some(stock) => stock,
             None => Stock::Mesh(self.mesh(given)?),
         };
@@ -97,7 +98,7 @@ impl Simulate {
             part: part.as_ref(),
             part_tolerance: setup.part_tolerance.unwrap_or(PART_TOLERANCE),
             grid: grid.transpose()?.or(setup.grid),
-            offsets: &Offsets::new(),
+            offsets: &setup.offsets,
             levels: commons.levels(),
         };
         let nc = filpost::tape_style::page(&commons).encode(&self.nc);
@@ -123,9 +124,25 @@ impl Simulate {
         }
         Ok(answer)
     }
-    /// A mesh that the setup file names.
+
+    /// The setup file, else `[simulate]` of the case, over that of the machine. Names of meshes are
+    /// paths from the folder that the names of the files count from.
+    fn setup(&self, commons: &Commons) -> Result<Setup, Error> {
+        let of_machine =
+            Setup::of_machine(commons, &|file, name| joined(file, name)).map_err(Error::Setup)?;
+        let (file, setup) = match (&self.setup, &self.case) {
+            (Some(file), _) => (file, Setup::read(&file.name, &file.text)?),
+            (None, Some(file)) => (file, of_case(file)?),
+            (None, None) => return Ok(of_machine),
+        };
+        Ok(setup.with_paths(&|name| joined(&file.name, name)).or(of_machine))
+    }
+
+    /// A mesh by its path, or by its name in the setup file.
     fn mesh(&self, name: &str) -> Result<Mesh, Error> {
-        match self.meshes.iter().find(|mesh| mesh.name == name) {
+        let beside = |mesh: &Named| self.setup.as_ref().map(|file| joined(&file.name, &mesh.name));
+        let is = |mesh: &&Named| mesh.name == name || beside(mesh).is_some_and(|path| path == name);
+        match self.meshes.iter().find(is) {
             Some(mesh) => read_mesh(mesh),
             None => {
                 let what = format!("`{name}` is no stock, and no STL file that is there");
@@ -133,6 +150,33 @@ impl Simulate {
             }
         }
     }
+}
+
+/// `[simulate]` of a `case.toml`.
+fn of_case(file: &Named) -> Result<Setup, Error> {
+    let wrong =
+        |what: String| Error::Run(StockCode::BadDescription.diag(format!("{}: {what}", file.name)));
+    let table: toml::Table =
+        file.text.parse().map_err(|error: toml::de::Error| wrong(error.message().into()))?;
+    match table.get("simulate") {
+        None => Ok(Setup::default()),
+        Some(toml::Value::Table(table)) => Setup::of_table(table).map_err(wrong),
+        Some(_) => Err(wrong("simulate is a table: [simulate]".into())),
+    }
+}
+
+/// The path of a file that another one names.
+fn joined(file: &str, name: &str) -> String {
+    let mut parts: Vec<&str> = file.split('/').collect();
+    parts.pop();
+    for part in name.split(['/', '\\']) {
+        match part {
+            "." | "" => {}
+            ".." if parts.last().is_some_and(|last| *last != "..") => drop(parts.pop()),
+            part => parts.push(part),
+        }
+    }
+    parts.join("/")
 }
 
 /// Reads a mesh, whose bytes are characters of the same number; a text that has others is one in UTF-8.

@@ -200,7 +200,8 @@ pub use fil_diag::suggest;
 #[doc(hidden)]
 pub use fil_machine::{
     Commons, FunctionCode, Kind, Letter, address, chain_drawing, chains, commons, effects,
-    files as settings, functions, locations, reads, stored, tape_style, user_blocks,
+    files as settings, functions, locations, reads, simulate_settings, stored, tape_style,
+    user_blocks,
 };
 #[doc(hidden)]
 pub use fil_nc as nc;

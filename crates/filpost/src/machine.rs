@@ -7,6 +7,7 @@ use fil_machine::{Commons, contradictions, files as settings};
 use crate::allow;
 use crate::error::RunCode;
 use crate::ready;
+use crate::simulate::Setup;
 
 /// Where the settings of the machine come from.
 pub(crate) enum Machine {
@@ -100,6 +101,7 @@ pub(crate) fn commons_with(
     let set = layers.settings.iter();
     said.extend(set.map(|setting| settings::apply_setting(&mut commons, setting)));
     said.push(commons.options().refuse_unknown().map(|()| Vec::new()));
+    said.push(Setup::of_machine(&commons, &|_, name| name.to_string()).map(|_| Vec::new()));
     for said in said {
         match said {
             Ok(said) => warnings.extend(said),

@@ -37,6 +37,7 @@ pub fn write_toml(commons: &Commons) -> String {
     unnamed(commons, &defaults, &mut out);
     levels(commons.levels(), &mut out);
     effects(commons.effects(), &mut out);
+    simulate(commons, &mut out);
     out
 }
 
@@ -65,6 +66,28 @@ fn effects(effects: &Effects, out: &mut String) {
     out.push_str("[effects]\n");
     for rule in effects.rules() {
         let _ = writeln!(out, "{:?} = \"{}\"", rule.said, rule.effect.name());
+    }
+}
+
+/// What `filpost simulate` cuts. Tables too.
+fn simulate(commons: &Commons, out: &mut String) {
+    let mut table = None;
+    let mut settings: Vec<_> = commons.simulate().all().iter().collect();
+    // Keys of their own first: what follows the head of a table belongs to it.
+    settings.sort_by_key(|setting| setting.key.split_once('.').map(|(table, _)| table));
+    for setting in settings {
+        let (group, key) = match setting.key.split_once('.') {
+            Some((group, key)) => (format!("simulate.{group}"), key),
+            None => ("simulate".to_string(), setting.key.as_str()),
+        };
+        if table.as_ref() != Some(&group) {
+            let _ = writeln!(out, "[{group}]");
+            table = Some(group);
+        }
+        // The number of an offset may hold a point.
+        let is_bare = key.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+        let key = if is_bare { key.to_string() } else { format!("{key:?}") };
+        let _ = writeln!(out, "{key} = {:?}", setting.value);
     }
 }
 
@@ -165,6 +188,21 @@ mod tests {
         let wrong = read_toml("m", "[effects]\nM66 = \"tool chnage\"\n").unwrap_err();
         assert_eq!(wrong[0].hint.as_deref(), Some("did you mean tool change?"));
         assert!(read_toml("m", "[effects]\n\"*\" = \"nothing\"\n").is_err());
+    }
+
+    #[test]
+    fn what_is_simulated_reads_back() {
+        let text = "[simulate]\ngrid = \"0.5\"\nstock = \"box 60x40x20\"\n\
+                    [simulate.offsets]\n\"G54.1P3\" = \"0,60,0\"\nG55 = \"60,0,0\"\n\
+                    [simulate.tools]\n1 = \"D10\"\n2 = \"D5 A118\"\n";
+        let (commons, _) = read_toml("m", text).unwrap();
+        assert!(write_toml(&commons).ends_with(text), "{}", write_toml(&commons));
+        let wrong = read_toml("m", "[simulate]\nstok = \"auto\"\n").unwrap_err();
+        assert_eq!(wrong[0].hint.as_deref(), Some("did you mean stock?"));
+        for text in ["stock = 5", "grid = true", "tools.A = \"D5\"", "tools = \"D5\"", "x.y = 1"] {
+            let wrong = read_toml("m", &format!("[simulate]\n{text}\n")).unwrap_err();
+            assert!(wrong[0].hint.is_some(), "{wrong:?}");
+        }
     }
 
     #[test]

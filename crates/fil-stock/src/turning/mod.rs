@@ -1,9 +1,13 @@
 //! Lathes: inserts and drills on the spindle axis through a profile.
 
+mod holder;
 pub(crate) mod insert;
+mod part;
 mod profile;
 
-use fil_diag::{Diag, TextSpan};
+use std::collections::BTreeSet;
+
+use fil_diag::Diag;
 use fil_nc::interpret::interpret;
 use fil_nc::motion::{Compensation, Course, Event, Move, Position, Spindle};
 
@@ -12,11 +16,11 @@ use crate::finding::{Fault, Findings, Report};
 use crate::removal::SKIN;
 use crate::simulation::{Job, Left, Program, Simulated, chord_degrees};
 use crate::survey::Survey;
-use crate::tool::{Body, Shape, Tool};
+use crate::tool::{Body, Tool};
 
 pub use insert::Insert;
 pub use profile::Profile;
-use profile::Turned;
+use profile::{Hit, Kept};
 
 /// A tool off the spindle axis by less is on it, mm.
 const ON_AXIS: f64 = 1e-6;
@@ -30,32 +34,28 @@ pub(crate) fn simulate(
     job: &Job<'_>,
     survey: &Survey,
 ) -> Result<Simulated, Box<Diag>> {
-    if job.part.is_some() {
-        return StockCode::NotSimulated.err("a part can't be compared on a lathe");
-    }
     let profile = Profile::new(job.stock, job.grid)?;
     let report = Report { stock: profile.volume(), cell: profile.step(), ..Report::default() };
     let mut running = Turning {
         program,
         job,
         survey,
-        profile,
         report,
         findings: Findings::new(job.levels),
         at: None,
         plan: Position::default(),
-        refused: None,
+        part: job.part.map(|part| part::of(part, &profile)),
+        profile,
+        without_holder: BTreeSet::new(),
     };
     interpret(program.text, program.name, program.dialect, &mut |event| {
         if let Event::Move(motion) = event {
             running.take(&motion);
         }
     })?;
-    if let Some(refused) = running.refused {
-        return Err(refused);
-    }
-    let Turning { profile, mut report, findings, .. } = running;
+    let Turning { profile, mut report, findings, without_holder, .. } = running;
     findings.end(&mut report);
+    report.without_holder = without_holder.into_iter().collect();
     Ok(Simulated { left: Left::Profile(profile), report })
 }
 
@@ -69,23 +69,24 @@ struct Turning<'a> {
     /// Z and X of the programmed point; `None` while they are not known.
     at: Option<[f64; 2]>,
     plan: Position,
-    /// Why the program can't be simulated.
-    refused: Option<Box<Diag>>,
+    /// Inner and outer radius of the part in each disk.
+    part: Option<Vec<[f64; 2]>>,
+    without_holder: BTreeSet<u32>,
 }
 
 impl Turning<'_> {
     fn take(&mut self, motion: &Move) {
         let from = std::mem::replace(&mut self.plan, motion.to);
-        let is_known = motion.course != Course::Machine && self.survey.knows(motion);
+        let is_known = motion.course != Course::Machine && self.survey.knows_turning(motion);
         let end = is_known.then(|| [motion.to.linear[2], motion.to.linear[0]]);
         let start = std::mem::replace(&mut self.at, end);
-        if motion.course == Course::Machine || self.refused.is_some() {
+        if motion.course == Course::Machine {
             return;
         }
         self.report.motions += 1;
         let Some(tool) = self.job.tools.get(&motion.modes.tool) else { return };
-        if let Some(why) = live(&from, motion) {
-            self.refuse(motion, why);
+        if let Some(reason) = live(&from, motion) {
+            self.leave_out(reason, motion);
             return;
         }
         if motion.modes.compensation.side != Compensation::Off && motion.course != Course::Rapid {
@@ -124,52 +125,70 @@ impl Turning<'_> {
     }
 
     fn go(&mut self, way: [[f64; 2]; 2], tool: &Tool, motion: &Move) {
+        let kept = self.part.as_deref();
+        let kept = kept.map(|radii| Kept { radii, tolerance: self.job.part_tolerance });
         let turned = match &tool.body {
-            Body::Insert(insert) => self.profile.turn(way, insert, SKIN),
-            Body::Shape(shape) => match self.drilled(way, shape) {
-                Some(turned) => turned,
-                None => {
-                    let what = "a drill or mill beside the spindle axis";
-                    self.refuse(motion, what);
-                    return;
+            Body::Insert(insert) => self.profile.turn(way, insert, SKIN, kept),
+            Body::Shape(_) if way.iter().any(|[_, x]| x.abs() >= ON_AXIS) => {
+                if self.is_in_stock(way, tool) {
+                    self.leave_out("drill or mill away from the spindle axis", motion);
                 }
-            },
+                return;
+            }
+            Body::Shape(shape) => {
+                let tip = way[0][0].min(way[1][0]);
+                self.profile.drill(tip, SKIN, kept, |height| shape.radius_at(height))
+            }
         };
+        // The holder follows: what the edge has just cut is not there any more.
+        let holder = holder::touched(&self.profile, way, tool, SKIN);
         if turned.volume > 0.0 {
             *self.report.removed.entry(motion.modes.tool).or_default() += turned.volume;
+            if tool.holder.is_empty() || tool.length.is_none() {
+                self.without_holder.insert(motion.modes.tool);
+            }
         }
         let is_rapid = motion.course == Course::Rapid;
         let stands = motion.modes.spindle.turn == Spindle::Off;
-        if turned.depth > 0.0 && (is_rapid || stands) {
-            let code = if is_rapid { StockCode::RapidInStock } else { StockCode::SpindleStands };
-            let [x, z] = turned.at;
-            let Turned { depth, length, .. } = turned;
-            self.add(&Fault { code, depth, length, at: [x, 0.0, z] }, motion);
+        let touch = if is_rapid { StockCode::RapidInStock } else { StockCode::SpindleStands };
+        let is_wrong = is_rapid || stands;
+        let hits = [
+            (touch, if is_wrong { turned.touch } else { Hit::default() }),
+            (StockCode::HolderInStock, holder),
+            (StockCode::BelowPart, turned.part),
+        ];
+        for (code, hit) in hits.into_iter().filter(|(_, hit)| hit.depth > 0.0) {
+            let ([x, z], Hit { depth, length, .. }) = (hit.at, hit);
+            let fault =
+                Fault { code: Some(code), depth, length, at: [x, 0.0, z], ..Fault::default() };
+            self.add(&fault, motion);
         }
     }
 
-    /// What a drill on the axis removes; `None` of one that is in the stock elsewhere.
-    fn drilled(&mut self, way: [[f64; 2]; 2], shape: &Shape) -> Option<Turned> {
+    /// True when a drill or mill away from the spindle axis may be in the stock.
+    fn is_in_stock(&self, way: [[f64; 2]; 2], tool: &Tool) -> bool {
+        let Body::Shape(shape) = &tool.body else { return false };
         let tip = way[0][0].min(way[1][0]);
-        if way.iter().all(|[_, x]| x.abs() < ON_AXIS) {
-            return Some(self.profile.drill(tip, SKIN, |height| shape.radius_at(height)));
-        }
-        let mut copy = self.profile.clone();
-        let reach = way.iter().map(|[_, x]| x.abs()).fold(0.0, f64::max) + shape.radius();
-        let turned = copy.drill(tip, SKIN, |_| reach);
-        (turned.volume == 0.0).then_some(turned)
+        let x = way.map(|[_, x]| x.abs());
+        let least = x[0].min(x[1]) - shape.radius() + SKIN;
+        let most = x[0].max(x[1]) + shape.radius() - SKIN;
+        let disks = self.profile.between(tip + SKIN, f64::INFINITY);
+        self.profile.disks()[disks]
+            .iter()
+            .any(|[inner, outer]| inner < outer && least < *outer && most > *inner)
     }
 
-    fn refuse(&mut self, motion: &Move, what: &str) {
-        let line = motion.line;
-        let text = self.program.text.split(|byte| *byte == b'\n').nth(line as usize - 1);
-        let text = String::from_utf8_lossy(text.unwrap_or_default()).trim_end().to_string();
-        let place = TextSpan::line(self.program.name, line, text);
-        self.refused = Some(Box::new(Diag::new(StockCode::NotSimulated, what).at(place)));
+    /// Notes a motion that is not simulated.
+    fn leave_out(&mut self, reason: &'static str, motion: &Move) {
+        // A live tool at rapid removes nothing anyway.
+        if motion.course != Course::Rapid {
+            let code = Some(StockCode::NotTurning);
+            self.add(&Fault { code, reason, ..Fault::default() }, motion);
+        }
     }
 
     fn note(&mut self, code: StockCode, motion: &Move) {
-        self.add(&Fault { code, depth: 0.0, length: 0.0, at: [0.0; 3] }, motion);
+        self.add(&Fault { code: Some(code), ..Fault::default() }, motion);
     }
 
     fn add(&mut self, fault: &Fault, motion: &Move) {
@@ -181,10 +200,10 @@ impl Turning<'_> {
 fn live(from: &Position, motion: &Move) -> Option<&'static str> {
     let to = &motion.to;
     if to.transformed || to.names_tip() {
-        return Some("a live tool in polar or cylindrical coordinates");
+        return Some("live tool in polar or cylindrical coordinates");
     }
     if motion.course != Course::Rapid && (from.rotary != to.rotary || to.linear[1] != 0.0) {
-        return Some("a live tool: Y or C moves");
+        return Some("live tool: Y or C moves");
     }
-    (motion.modes.master.is_side == Some(true)).then_some("a cut in the sub-spindle")
+    (motion.modes.master.is_side == Some(true)).then_some("cut in the sub-spindle")
 }

@@ -28,17 +28,62 @@ pub struct Profile {
     disks: Vec<[f64; 2]>,
 }
 
+/// Where and how deep something is touched.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Hit {
+    /// Most that is touched, in radius, mm; 0 where nothing is.
+    pub depth: f64,
+    /// Where that is: X as a radius, and Z, mm.
+    pub at: [f64; 2],
+    /// Length along Z, mm.
+    pub length: f64,
+    /// From where to where along Z.
+    range: Option<[f64; 2]>,
+}
+
+impl Hit {
+    /// Adds a disk of a thickness that is touched at a place.
+    pub fn add(&mut self, depth: f64, at: [f64; 2], step: f64) {
+        if depth <= 0.0 {
+            return;
+        }
+        let [low, high] = self.range.unwrap_or([at[1]; 2]);
+        let range = [low.min(at[1]), high.max(at[1])];
+        self.range = Some(range);
+        self.length = range[1] - range[0] + step;
+        if depth > self.depth {
+            (self.depth, self.at) = (depth, at);
+        }
+    }
+}
+
 /// What a motion has removed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Turned {
     /// mm³
     pub volume: f64,
-    /// Most that was removed, in radius, by more than the skin, and where (X radius, Z); 0 where
-    /// nothing was.
-    pub depth: f64,
-    pub at: [f64; 2],
-    /// Along Z, mm.
-    pub length: f64,
+    /// What was removed by more than the skin.
+    pub touch: Hit,
+    /// What was removed of the part by more than the tolerance.
+    pub part: Hit,
+}
+
+/// The part that must be left: inner and outer radius of each disk, and by how much a cut may be
+/// within it, mm.
+#[derive(Clone, Copy)]
+pub(crate) struct Kept<'p> {
+    pub radii: &'p [[f64; 2]],
+    pub tolerance: f64,
+}
+
+/// What a cut makes of a disk.
+struct Cut {
+    left: [f64; 2],
+    /// In radius, mm.
+    depth: f64,
+    is_touched: bool,
+    /// Depth of the cut in the part, mm.
+    part: f64,
 }
 
 impl Profile {
@@ -85,61 +130,87 @@ impl Profile {
         self.disks.iter().map(|disk| area(*disk)).sum::<f64>() * self.step
     }
 
+    /// Disks whose middle lies between two Z, mm.
+    pub(crate) fn between(&self, low: f64, high: f64) -> std::ops::Range<usize> {
+        let index = |z: f64| ((z - self.from) / self.step - 0.5).ceil().max(0.0) as usize;
+        let end = index(high).min(self.disks.len());
+        index(low).min(end)..end
+    }
+
     /// Removes what an insert cuts on a straight way of its programmed point, as Z and X.
-    pub(crate) fn turn(&mut self, way: [[f64; 2]; 2], insert: &Insert, skin: f64) -> Turned {
+    pub(crate) fn turn(
+        &mut self,
+        way: [[f64; 2]; 2],
+        insert: &Insert,
+        skin: f64,
+        kept: Option<Kept<'_>>,
+    ) -> Turned {
         let is_outside = insert.along_x < 0.0;
-        self.change(|[inner, outer], z| {
+        self.change(|index, [inner, outer], z| {
             let x = insert.reaches(way, z, 0.0)?;
-            let shy = insert.reaches(way, z, skin);
-            Some(if is_outside {
-                let is_touched = shy.is_some_and(|x| x < outer);
-                ([inner, outer.min(x).max(inner)], outer - x.max(inner), is_touched)
-            } else {
-                let is_touched = shy.is_some_and(|x| x > inner);
-                ([inner.max(x).min(outer), outer], x.min(outer) - inner, is_touched)
-            })
+            let reaches = |skin: f64| insert.reaches(way, z, skin);
+            let into_part = |kept: Kept<'_>| {
+                let [low, high] = kept.radii[index];
+                let shy = reaches(kept.tolerance).filter(|_| low < high);
+                shy.map_or(0.0, |shy| match is_outside {
+                    true if shy < high.min(outer) => high.min(outer) - x.max(inner).max(low),
+                    false if shy > low.max(inner) => x.min(outer).min(high) - low.max(inner),
+                    _ => 0.0,
+                })
+            };
+            let (left, depth) = match is_outside {
+                true => ([inner, outer.min(x).max(inner)], outer - x.max(inner)),
+                false => ([inner.max(x).min(outer), outer], x.min(outer) - inner),
+            };
+            let is_touched = depth > 0.0
+                && reaches(skin).is_some_and(|x| if is_outside { x < outer } else { x > inner });
+            let part = if depth > 0.0 { kept.map_or(0.0, into_part) } else { 0.0 };
+            Some(Cut { left, depth, is_touched, part })
         })
     }
 
     /// Removes what a drill on the spindle axis cuts with its tip down to a Z; `radius_at` is its
     /// radius at a height over the tip.
-    pub(crate) fn drill(&mut self, tip: f64, skin: f64, radius_at: impl Fn(f64) -> f64) -> Turned {
-        self.change(|[inner, outer], z| {
+    pub(crate) fn drill(
+        &mut self,
+        tip: f64,
+        skin: f64,
+        kept: Option<Kept<'_>>,
+        radius_at: impl Fn(f64) -> f64,
+    ) -> Turned {
+        self.change(|index, [inner, outer], z| {
             if z <= tip {
                 return None;
             }
             let radius = radius_at(z - tip);
             let is_touched = z > tip + skin && radius - skin > inner;
-            Some(([inner.max(radius).min(outer), outer], radius.min(outer) - inner, is_touched))
+            let part = kept.map_or(0.0, |kept| {
+                let [low, high] = kept.radii[index];
+                let shy = if z > tip + kept.tolerance { radius - kept.tolerance } else { 0.0 };
+                let is_in = low < high && shy > low.max(inner);
+                if is_in { radius.min(outer).min(high) - low.max(inner) } else { 0.0 }
+            });
+            let left = [inner.max(radius).min(outer), outer];
+            Some(Cut { left, depth: radius.min(outer) - inner, is_touched, part })
         })
     }
 
-    /// Changes disks that have material: to what, by how much, and whether that is more than a
-    /// touch.
-    fn change(&mut self, next: impl Fn([f64; 2], f64) -> Option<([f64; 2], f64, bool)>) -> Turned {
-        let mut turned = Turned { volume: 0.0, depth: 0.0, at: [0.0; 2], length: 0.0 };
-        let mut touched = [f64::INFINITY, f64::NEG_INFINITY];
+    /// Changes disks that have material.
+    fn change(&mut self, next: impl Fn(usize, [f64; 2], f64) -> Option<Cut>) -> Turned {
+        let mut turned = Turned::default();
         for index in 0..self.disks.len() {
             let (disk, z) = (self.disks[index], self.middle(index));
             if disk[0] >= disk[1] {
                 continue;
             }
-            let Some((left, depth, is_touched)) = next(disk, z) else { continue };
-            if depth <= 0.0 {
-                continue;
+            let Some(cut) = next(index, disk, z).filter(|cut| cut.depth > 0.0) else { continue };
+            turned.volume += (area(disk) - area(cut.left)) * self.step;
+            let at = [if cut.left[1] < disk[1] { cut.left[1] } else { cut.left[0] }, z];
+            if cut.is_touched {
+                turned.touch.add(cut.depth, at, self.step);
             }
-            turned.volume += (area(disk) - area(left)) * self.step;
-            if is_touched {
-                touched = [touched[0].min(z), touched[1].max(z)];
-                if depth > turned.depth {
-                    (turned.depth, turned.at) =
-                        (depth, [if left[1] < disk[1] { left[1] } else { left[0] }, z]);
-                }
-            }
-            self.disks[index] = left;
-        }
-        if turned.depth > 0.0 {
-            turned.length = touched[1] - touched[0] + self.step;
+            turned.part.add(cut.part, at, self.step);
+            self.disks[index] = cut.left;
         }
         turned
     }

@@ -10,7 +10,7 @@ use super::{Chosen, ClReading, LevelArgs, Report, Units};
 /// `filpost simulate`
 #[derive(Debug, ClapArgs)]
 pub struct SimulateArgs {
-    /// The NC program; - reads standard input
+    /// The NC program, or the folder of a case; - reads standard input
     pub nc: PathBuf,
     /// The machine that the program is for
     #[command(flatten)]
@@ -43,9 +43,10 @@ pub struct SimulateArgs {
 /// Stock, part and tools.
 #[derive(Debug, Default, ClapArgs)]
 pub struct MaterialArgs {
-    /// The stock: box:100x80x30@X,Y,Z, cylinder:60x100@X,Y,Z, tube:60x20x100, auto, or an STL file
-    #[arg(long, value_name = "STOCK")]
-    pub stock: Option<String>,
+    /// The stock: box:100x80x30@X,Y,Z, cylinder:60x100@X,Y,Z, tube:60x20x100, auto, or an STL file;
+    /// left out, that of the setup file, the case or the machine
+    #[arg(long, value_name = "STOCK", num_args = 0..=1)]
+    pub stock: Option<Option<String>>,
     /// The finished part, an STL file, below whose surface nothing may be cut
     #[arg(long, value_name = "FILE")]
     pub part: Option<PathBuf>,
@@ -62,9 +63,23 @@ pub struct MaterialArgs {
     /// Where a further work offset lies, as G55=60,0,0: its zero in the first one (may be given again)
     #[arg(long, value_name = "G=X,Y,Z", value_parser = offset)]
     pub offset: Vec<(u32, [f64; 3])>,
-    /// A TOML file with stock, part, part_tol, grid and a table `tools`; options win over it
+    /// A TOML file with stock, part, part_tol, grid, and the tables `tools` and `offsets`; options
+    /// win over it. Left out: stock.toml or case.toml next to the part, stock.toml next to the machine
     #[arg(long, value_name = "FILE")]
     pub setup: Option<PathBuf>,
+}
+
+impl MaterialArgs {
+    /// True when an option asks for a simulation.
+    pub fn is_asked(&self) -> bool {
+        self.stock.is_some()
+            || self.part.is_some()
+            || self.part_tol.is_some()
+            || self.grid.is_some()
+            || !self.tool.is_empty()
+            || !self.offset.is_empty()
+            || self.setup.is_some()
+    }
 }
 
 fn length(text: &str) -> Result<f64, String> {

@@ -38,6 +38,7 @@ pub fn schema() -> Value {
     );
     properties.insert("option".into(), declarations());
     properties.insert("effects".into(), effects());
+    properties.insert("simulate".into(), simulate());
     for kind in ["int", "rel", "dbl"] {
         let numbers = json!({"type": "object", "patternProperties": {"^[0-9]+$": number()}});
         inner(&mut properties, "imported").insert(kind.into(), numbers.clone());
@@ -158,6 +159,34 @@ fn effects() -> Value {
         "type": "object",
         "description": "What calls and codes of the shop do.",
         "additionalProperties": {"enum": Effect::ALL.map(Effect::name)},
+    })
+}
+
+/// `[simulate]`: what `filpost simulate` cuts.
+fn simulate() -> Value {
+    let text = |description: &str| json!({"type": "string", "description": description});
+    let length =
+        |description: &str| json!({"type": ["number", "string"], "description": description});
+    let texts = |pattern: &str, description: &str| {
+        json!({
+            "type": "object",
+            "description": description,
+            "patternProperties": {pattern: {"type": "string"}},
+            "additionalProperties": false,
+        })
+    };
+    json!({
+        "type": "object",
+        "description": "What `filpost simulate` and `filpost verify --stock` cut.",
+        "properties": {
+            "stock": text("The stock: `box 100x80x30 at X,Y,Z`, `cylinder 60x100`, `tube 60x20x100`, `auto`, or an STL file."),
+            "part": text("The STL file of the finished part."),
+            "part_tol": length("Depth that a cut may be within the part, mm; 0.05 by default."),
+            "grid": length("Size of a cell, mm; a 400th of the stock by default."),
+            "tools": texts("^[0-9]+$", "Sizes of tools by their numbers: `1 = \"D10R0.5L50H40x60\"`."),
+            "offsets": texts("^[A-Z]", "Zeros of further work offsets in the first one: `G55 = \"60,0,0\"`."),
+        },
+        "additionalProperties": false,
     })
 }
 

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use filpost::effects::Rule;
 use filpost::locations::{LIMITS_CHECK, Location, TABLE, default_commons};
+use filpost::simulate_settings::SimulateSetting;
 use filpost::{Commons, Diag, Error, Kind, Levels, Program, explain, ready, stored, user_blocks};
 
 use super::{LETTERS, address, diff};
@@ -129,6 +130,7 @@ fn differences(out: &mut dyn Write, commons: &Commons) -> io::Result<()> {
     lines.extend(levels(commons.levels()));
     lines.extend(options(commons));
     lines.extend(commons.effects().rules().iter().map(effect));
+    lines.extend(commons.simulate().all().iter().map(simulate));
     if lines.is_empty() {
         lines.push("every setting that has an effect is that of the default machine".into());
     }
@@ -169,6 +171,11 @@ fn levels(levels: &Levels) -> Vec<String> {
 /// What a block of the shop does.
 fn effect(rule: &Rule) -> String {
     format!("{:<28} {}", format!("effects.{:?}", rule.said), rule.effect.name())
+}
+
+/// What `filpost simulate` cuts.
+fn simulate(setting: &SimulateSetting) -> String {
+    format!("{:<28} {}", format!("simulate.{}", setting.key), setting.value)
 }
 
 /// The user's blocks.

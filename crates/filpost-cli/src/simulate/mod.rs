@@ -1,5 +1,6 @@
 //! `filpost simulate`, and the simulation of `filpost verify --stock`.
 
+mod case;
 mod material;
 mod text;
 
@@ -12,14 +13,14 @@ use filpost::nc::source::Source;
 use filpost::plot::{self, ClText, Text};
 use filpost::simulate::{ClTools, as_json, cl_tools};
 use filpost::stock::{Job, Simulated};
-use filpost::{Commons, Diag, Error, Levels, files, select, simulate, stock};
+use filpost::{Commons, Diag, Error, Levels, Program, files, select, simulate, stock};
 
 use crate::args::{RawRecords, Report, SimulateArgs};
 use crate::output::{self, Target};
 use crate::setup::{From, Named};
 use crate::{Status, post, setup};
 
-pub use material::Material;
+pub use material::{Material, Places};
 pub use text::write_report;
 
 /// Simulates an NC program.
@@ -27,23 +28,23 @@ pub use text::write_report;
 /// # Errors
 /// Files that can't be read or written, a program that has no sure meaning or can't be simulated.
 pub fn run(args: &SimulateArgs) -> Result<Status, Error> {
-    let Some(material) = Material::read(&args.material)? else {
-        output::say("error: give the stock, such as --stock box:100x80x30 (top at Z0)");
-        return Ok(Status::Usage);
-    };
+    if args.nc.join("case.toml").is_file() {
+        return case::run(args);
+    }
     let bytes = read(&args.nc)?;
     let name = output::input_name(&args.nc);
     let nc = Text { name: &name, bytes: &bytes };
     let cl = args.cl.as_ref().map(|path| Ok::<_, Error>((path, read(path)?))).transpose()?;
     let named = machine(args, nc, cl.as_ref().map(|(path, bytes)| (path.as_path(), &bytes[..])))?;
-    let mut inputs = named.inputs.clone();
+    let (program, title, post) = (named.builder.build()?, named.title, named.inputs);
+    let files = args.cl.iter().chain([&args.nc]).map(PathBuf::as_path).collect();
+    let places = Places { files, post: &post, root: Path::new("") };
+    let Some(material) = Material::read(&args.material, program.commons(), &places)? else {
+        return Ok(without_stock());
+    };
+    let mut inputs = post.clone();
     inputs.extend([&args.nc].into_iter().chain(&args.cl).chain(&args.map).cloned());
-    inputs.extend(material.inputs.iter().cloned());
-    output::refuse_over(
-        [output::named(args.write_stock.as_deref())],
-        inputs.iter().map(PathBuf::as_path),
-    )?;
-    let (program, title) = (named.builder.build()?, named.title);
+    refuse_over(args, &material, inputs)?;
     let found = cl.as_ref().map(|(path, bytes)| {
         let name = output::input_name(path);
         let options =
@@ -54,6 +55,30 @@ pub fn run(args: &SimulateArgs) -> Result<Status, Error> {
     let found = found.transpose()?.unwrap_or_default();
     let mut done = cut(&material, &found, nc, program.commons(), &args.levels.levels)?;
     name_sources(&mut done.report, nc, &args.nc, args.map.as_deref())?;
+    tell(args, nc, &program, &title, &done)
+}
+
+/// Refuses to write the stock over an input.
+fn refuse_over(
+    args: &SimulateArgs,
+    material: &Material,
+    mut inputs: Vec<PathBuf>,
+) -> Result<(), Error> {
+    inputs.extend(material.inputs.iter().cloned());
+    output::refuse_over(
+        [output::named(args.write_stock.as_deref())],
+        inputs.iter().map(PathBuf::as_path),
+    )
+}
+
+/// Writes the stock that is left, and prints the report.
+fn tell(
+    args: &SimulateArgs,
+    nc: Text<'_>,
+    program: &Program,
+    title: &str,
+    done: &Simulated,
+) -> Result<Status, Error> {
     if let Some(path) = &args.write_stock {
         let stl = done.left.stl();
         Target::new(Some(path))
@@ -65,6 +90,16 @@ pub fn run(args: &SimulateArgs) -> Result<Status, Error> {
         Report::Text => write_report(nc, program.nc_page(), &done.report)?,
     }
     Ok(if done.report.fails { Status::Failed } else { Status::Done })
+}
+
+/// Asks for the stock.
+pub fn without_stock() -> Status {
+    output::say(
+        "error: no stock is given: use --stock box:100x80x30 (top at Z0), or write \
+         stock = \"box 100x80x30\" into stock.toml next to the part, or below [simulate] into \
+         case.toml or machine.toml",
+    );
+    Status::Usage
 }
 
 /// Cuts the stock. Levels of the command line win over those of the machine, and tools of the

@@ -97,3 +97,66 @@ fn verify_cuts_stock_too() {
     assert_eq!((ran.status, &found["stock"]["findings"]), (0, &Value::Array(Vec::new())));
     assert_eq!(place.run(&verify).status, 0);
 }
+
+/// Stock, part and tools of a job, found in the order: option, stock.toml or case next to the part,
+/// machine.
+#[test]
+fn the_setup_is_found_next_to_the_part_in_its_case_and_in_the_machine() {
+    let place = posted().with(
+        "post/machine.toml",
+        "base = \"fanuc-mill\"\n[simulate]\nstock = \"box 60x40x20\"\ngrid = 1\ntools.1 = \"D8\"\n",
+    );
+    let on_machine = ["simulate", "part.nc", "-p", "post"];
+    // A slot of 8 mm, and the way back beside it: 16 wide.
+    let removed = |ran: &Ran| {
+        let at = ran.out.find("removed ").expect("a report");
+        ran.out[at..].split(' ').nth(1).unwrap_or_default().replace(',', "")
+    };
+    let ran = place.run(&on_machine);
+    assert!(ran.status == 1 && removed(&ran) == (60 * 16 * 2).to_string(), "{ran:?}");
+    let ran = place.run(&["machine", "show", "post"]);
+    assert!(ran.out.contains("simulate.stock               box 60x40x20"), "{ran:?}");
+    // The file next to the part wins key by key: a lower stock with the tool of the machine.
+    let place = place.with("stock.toml", "stock = \"box 60x40x20@0,0,-21\"\n");
+    let ran = place.run(&on_machine);
+    assert!(ran.err.contains("setup: stock.toml"), "{ran:?}");
+    assert!(removed(&ran) == (60 * 16).to_string(), "{ran:?}");
+    let ran = place.run(&[&on_machine[..], &["--tool", "1=D4", "--stock", "auto"]].concat());
+    assert!(ran.status == 1 && ran.err.contains("the box around the cuts has no width"), "{ran:?}");
+}
+
+#[test]
+fn a_case_is_posted_and_cut() {
+    let case = "cl = \"part.ncl\"\nready = \"fanuc-mill\"\nexpect = \"part.nc\"\norigin = \"a test\"\n\
+                [simulate]\nstock = \"box 60x40x20\"\ngrid = 0.5\n";
+    let place = Folder::new().with("job/part.ncl", PART).with("job/case.toml", case);
+    let ran = place.run(&["simulate", "job"]);
+    for part in ["error E0971: NC line", "(CL line 14)", "made by part.ncl:14  GOTO / -10, 20, -2"]
+    {
+        assert!(ran.status == 1 && ran.out.contains(part), "{part}: {ran:?}");
+    }
+    let ran = place.run(&["simulate", "job", "-p", "haas-mill"]);
+    assert!(ran.status == 2 && ran.err.contains("a case has its own CL file and post"), "{ran:?}");
+    let wrong = place.with("job/case.toml", case.replace("stock =", "stok ="));
+    let ran = wrong.run(&["simulate", "job"]);
+    assert!(ran.status == 1 && ran.err.contains("did you mean stock?"), "{ran:?}");
+}
+
+/// A slot into a shaft, too deep for its holder, and below the part.
+#[test]
+fn verify_cuts_stock_on_a_lathe() {
+    let part = "UNITS / MM\nLOADTL / 3\nSPINDL / RPM, 900, CLW\nRAPID\nGOTO / 31, 0, -30\n\
+                FEDRAT / 0.1, MMPR\nGOTO / 19, 0, -30\nRAPID\nGOTO / 31, 0, -30\nRAPID\n\
+                GOTO / 25, 0, -50\nFINI\n";
+    let place = Folder::new().with("part.ncl", part);
+    let ran = place.run(&["post", "part.ncl", "-p", "fanuc-lathe", "-o", "part.nc"]);
+    assert_eq!(ran.status, 0, "{ran:?}");
+    let verify =
+        ["verify", "part.ncl", "part.nc", "-p", "fanuc-lathe", "--stock", "cylinder:60x80"];
+    let ran = place.run(&[&verify[..], &["--tool", "3=Q3R0.2W3L8H20x100"]].concat());
+    for part in ["agrees", "E0972", "E0971"] {
+        assert!(ran.status == 1 && ran.out.contains(part), "{part}: {ran:?}");
+    }
+    let ran = place.run(&verify);
+    assert!(ran.status == 1 && ran.err.contains("--tool 3="), "{ran:?}");
+}

@@ -7,7 +7,7 @@ const KEPT = ["set", "strict", "allow", "clock", "fuel", "dialect", "raw_records
 
 /** Keys that name files, and those that say what must come or are for people. */
 const FILES = ["cl", "machine", "option_file", "fil", "compat"];
-const REST = ["expect", "expect_error", "expect_warnings", "origin", "repairs", "tolerance", "ignore", "diameter"];
+const REST = ["simulate", "expect", "expect_error", "expect_warnings", "origin", "repairs", "tolerance", "ignore", "diameter"];
 
 const plain = (text) => text.replaceAll("\r\n", "\n");
 
@@ -47,7 +47,7 @@ export class Cases {
     const fil = [keys.fil ?? []].flat().map((each) => joined(folderOf(name), each));
     await Promise.all(fil.filter((each) => this.files.has(each)).map((each) => this.files.read(each)));
     const kept = KEPT.filter((key) => key !== "ready" && keys[key] !== undefined);
-    return { fil, keys: Object.fromEntries(kept.map((key) => [key, keys[key]])) };
+    return { name, simulate: keys.simulate, fil, keys: Object.fromEntries(kept.map((key) => [key, keys[key]])) };
   }
 
   /** The program that a case must give; null where it has none. */

@@ -1,11 +1,14 @@
-// Stock cut by the program: what a setup file beside the part says, what is left, and what went wrong.
+// Stock cut by the program: what a setup file, the case or the machine gives, what is left, and what went wrong.
 import { debounced, signal } from "./dom.js";
-import { folderOf, joined } from "./files.js";
+import { folderOf, isMesh, joined } from "./files.js";
+import { MACHINE } from "./posting.js";
 
 /** Longest program that is simulated by itself, characters. */
 const MOST_CUT = 400_000;
 
 const SETUP = "stock.toml";
+
+const NONE = { name: null, isCase: false, own: {}, below: {}, keys: {}, meshes: [] };
 
 export class Cutting {
   constructor(files, posting, ask) {
@@ -17,15 +20,17 @@ export class Cutting {
     this.isRunning = false;
     this.asked = 0;
     this.changed = signal();
+    /** What is cut: see `found`. */
+    this.setup = NONE;
     this.later = debounced(500, () => this.run());
     posting.done.on(() => this.stale());
-    files.changed.on((name, by) => by !== "save" && (name === this.file() || this.meshNames.includes(name)) && this.stale());
-    this.meshNames = [];
+    files.changed.on((name, by) => by !== "save" && (name === this.file() || this.setup.meshes.includes(name)) && this.stale());
+    files.listed.on(() => this.look());
   }
 
-  /** The setup file of the part: beside it, or at the top. */
+  /** The setup file of the part: next to it, or at the top. */
   file() {
-    const beside = joined(folderOf(this.posting.part ?? ""), SETUP);
+    const beside = this.newFile();
     return this.files.has(beside) ? beside : this.files.has(SETUP) ? SETUP : null;
   }
 
@@ -39,26 +44,53 @@ export class Cutting {
   }
 
   /** What was found belongs to another text now. */
-  stale() {
+  async stale() {
     this.report = null;
     this.trouble = "";
     this.asked += 1;
-    this.changed.tell();
-    if (this.file() && this.posting.answer?.nc && !this.isLarge) this.later();
+    await this.look();
+    if (this.setup.keys.stock && this.posting.answer?.nc && !this.isLarge) this.later();
   }
 
-  /** The keys of the setup file, such as `stock` and `tools`; none where there is no file. */
-  async keys() {
-    const name = this.file();
-    if (!name) return {};
+  /** Reads the setup anew. */
+  async look() {
+    const looked = (this.looked = (this.looked ?? 0) + 1);
+    const setup = await this.found().catch((error) => ({ ...NONE, name: this.file(), trouble: error.message }));
+    if (looked !== this.looked) return;
+    this.setup = setup;
+    this.trouble = setup.trouble ?? this.trouble;
+    this.changed.tell();
+  }
+
+  /**
+   * As `filpost simulate` finds it: stock.toml next to the part, else `[simulate]` of its case, else stock.toml at the
+   * top; below that `[simulate]` of the machine, key by key. `own` are the keys of the file `name`, `below` those of the
+   * machine, `keys` all together, `meshes` the paths of the STL files.
+   */
+  async found() {
+    const { recipe } = this.posting, beside = this.newFile();
+    const isCase = !this.files.has(beside) && Boolean(recipe?.simulate);
+    const name = isCase ? recipe.name : this.file();
+    const own = isCase ? recipe.simulate : name ? await this.toml(name) : {};
+    const machine = this.files.has(MACHINE) ? await this.toml(MACHINE).catch(() => ({})) : {};
+    const below = machine.simulate ?? {};
+    const paths = ({ stock, part }, file) => [stock, part].filter((each) => isMesh(each ?? "")).map((each) => joined(folderOf(file), each));
+    return {
+      name, isCase, own, below, keys: { ...below, ...own, tools: { ...below.tools, ...own.tools } },
+      meshes: [...new Set([...paths(own, name ?? ""), ...paths(below, MACHINE)])].filter((each) => this.files.has(each)),
+    };
+  }
+
+  /** The keys of a TOML file. */
+  async toml(name) {
     const { case: keys, why } = await this.ask({ do: "case", text: await this.files.read(name) });
     if (!keys) throw new Error(`${name}: ${why}`);
     return keys;
   }
 
-  /** The shapes of the tools that the setup file gives, for the view: mm and degrees. Turning inserts have none. */
+  /** The shapes of the tools that the setup gives, for the view: mm and degrees. Turning inserts have none. */
   async shapes() {
-    const { tools = {} } = await this.keys().catch(() => ({}));
+    const { keys: { tools = {} } } = await this.found().catch(() => NONE);
     return Object.entries(tools).map(([number, text]) => shapeOf(Number(number), String(text))).filter(Boolean);
   }
 
@@ -74,24 +106,20 @@ export class Cutting {
     this.files.set(this.file() ?? this.newFile(), `${lines.filter((line) => line !== null).join("\n")}\n`);
   }
 
-  async meshes(name, keys) {
-    const wanted = [keys.stock, keys.part].filter((each) => /\.stl$/i.test(each ?? ""));
-    this.meshNames = wanted.map((each) => joined(folderOf(name), each));
-    return Promise.all(wanted.map(async (each, at) => ({ name: each, text: await this.files.read(this.meshNames[at]) })));
-  }
-
   async run() {
-    const name = this.file(), nc = this.posting.answer?.nc, machine = this.posting.machine();
-    if (!name || nc === undefined || !machine) return;
+    const nc = this.posting.answer?.nc, machine = this.posting.machine();
+    const { name, isCase, keys, meshes } = this.setup;
+    if (!keys.stock || nc === undefined || !machine) return;
     const number = ++this.asked, { part } = this.posting;
     this.isRunning = true;
     this.changed.tell();
     let report = null, trouble = "";
     try {
-      const keys = await this.keys();
+      const file = name && { name, text: await this.files.read(name) };
       const answer = await this.ask({
         do: "simulate", machine, set: this.posting.recipe?.keys.set, nc, heights: true,
-        setup: { name, text: this.files.text(name) }, meshes: await this.meshes(name, keys),
+        setup: isCase ? null : file, case: isCase ? file : null,
+        meshes: await Promise.all(meshes.map(async (each) => ({ name: each, text: await this.files.read(each) }))),
         cl: { name: part, text: this.files.text(part) },
       });
       if (answer.errors ?? answer.misuse) trouble = answer.misuse ?? answer.errors.map(({ code, message }) => `${code}: ${message}`).join("\n");

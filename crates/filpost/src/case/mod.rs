@@ -6,7 +6,7 @@
 //! `clock`; `units` (of a CL file without UNITS); `expect` (NC file) or `expect_error` (code); `listing` (its expected text);
 //! `tolerance`, `ignore`, `diameter` (how the NC programs are compared; letter by letter
 //! when none is given); `expect_warnings`; `expect_at` (`file:line` of the error or of the
-//! first warning expected); `origin` and `repairs` for people.
+//! first warning expected); `[simulate]` (stock, part and tools); `origin` and `repairs` for people.
 
 mod mutants;
 mod outcome;
@@ -27,6 +27,7 @@ use serde::{Deserialize, Deserializer};
 
 use crate::error::{Error, RunCode};
 use crate::program::Program;
+use crate::simulate::Setup;
 use crate::units::unit_named;
 use crate::{file_names, files};
 
@@ -104,6 +105,9 @@ pub struct CaseFile {
     pub expect_at: Option<String>,
     /// Most loop passes, calls and reads of a section.
     pub fuel: Option<u64>,
+    /// What `filpost simulate` cuts: the keys of a setup file.
+    #[serde(default, deserialize_with = "setup")]
+    pub simulate: Option<Setup>,
     /// Who published it, and where each part comes from.
     pub origin: String,
     /// What was repaired against the print.
@@ -115,6 +119,14 @@ pub struct CaseFile {
 fn dialect<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<ClDialect>, D::Error> {
     let name = String::deserialize(deserializer)?;
     name.parse().map(Some).map_err(D::Error::custom)
+}
+
+/// Stock, part and tools.
+fn setup<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Setup>, D::Error> {
+    let table = toml::Table::deserialize(deserializer)?;
+    Setup::of_table(&table)
+        .map(Some)
+        .map_err(|what| D::Error::custom(format!("[simulate]: {what}")))
 }
 
 /// Values of options: a text, a number, true or false.

@@ -56,6 +56,8 @@ pub use fil_stock::{
 };
 pub use json::as_json;
 pub use setup::Setup;
+#[doc(hidden)]
+pub use setup::stock_of;
 
 impl Program {
     /// Cuts stock with an NC program of this machine; see [`mod@crate::simulate`].

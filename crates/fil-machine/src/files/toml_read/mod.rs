@@ -5,7 +5,7 @@
 //! `format`, `spec` and `char` of a letter; `blocks.start` and `blocks.end` are
 //! lists of texts, and so are `words.without_effect`, the major words that pass, and
 //! `verify.allowed_offsets`, what a program may choose unasked, and `learned.undecided`; `[levels]` sets levels of codes,
-//! `[effects]` says what blocks of the shop do, `[option.NAME]` declares an option of the post and
+//! `[effects]` says what blocks of the shop do, `[simulate]` what `filpost simulate` cuts, `[option.NAME]` declares an option of the post and
 //! `[options]` gives values. A flag takes true or false, a letter or character a text of
 //! one character, and every setting takes `"none"` for absent.
 
@@ -13,6 +13,7 @@ mod address;
 mod effects;
 mod levels;
 mod options;
+mod simulate;
 mod values;
 
 pub use options::{declare_fil_options, given_options};
@@ -59,6 +60,9 @@ const LEVELS: &str = "levels.";
 
 /// What stands before the blocks of effects.
 const EFFECTS: &str = "effects.";
+
+/// What stands before the keys of the simulation.
+const SIMULATE: &str = "simulate.";
 
 /// What messages call the text of a single setting.
 const OPTION: &str = "--set";
@@ -334,6 +338,9 @@ impl<'a> TomlReader<'a> {
         }
         if let Some(block) = name.strip_prefix(EFFECTS) {
             return self.effect(commons, block, key, value);
+        }
+        if let Some(simulate) = name.strip_prefix(SIMULATE) {
+            return self.simulate(commons, simulate, key, value);
         }
         if name == "learned.undecided" {
             commons.set_undecided(self.texts(value, MOST_UNDECIDED)?);

@@ -9,7 +9,7 @@ export function startStock(cutting, files, posting, { open, showPath }) {
   const part = el("select");
   const grid = el("input", { type: "text", placeholder: "by the size", spellcheck: false, size: 8 });
   const tools = el("textarea", { rows: 3, cols: 30, placeholder: "1 = D10R0.5L50H40x60", spellcheck: false });
-  const edit = el("button", { type: "button", onclick: () => open(cutting.file()) }, "Edit the file");
+  const edit = el("button", { type: "button", onclick: () => open(cutting.setup.name) }, "Edit the file");
   const run = el("button", { type: "button", onclick: () => cutting.run() }, "Cut");
   const see = el("button", { type: "button", onclick: showPath }, "Show in Path");
   by("stock-form").append(
@@ -28,22 +28,31 @@ export function startStock(cutting, files, posting, { open, showPath }) {
     });
   }
 
-  /** Shows what the setup file says; a file with comments is only edited as a text. */
-  async function load() {
-    const name = cutting.file(), text = name ? files.text(name) ?? await files.read(name) : "";
+  /** Shows the setup; a file with comments, and that of a case, is only edited as text. What the machine gives is gray. */
+  function load() {
+    const { name, isCase, own, below } = cutting.setup, text = name ? files.text(name) ?? "" : "";
     const meshes = files.names().filter(isMesh).map((each) => nameFrom(folderOf(name ?? cutting.newFile()), each));
-    const key = `${name} ${text} ${meshes.join("|")} ${posting.part}`;
+    const key = JSON.stringify([cutting.setup, text, meshes, posting.part]);
     if (key === shown) return;
     shown = key;
-    const keys = await cutting.keys().catch(() => null);
-    if (key !== shown) return;
-    for (const input of [stock, part, grid, tools]) input.disabled = !keys || /^\s*#/m.test(text);
-    part.replaceChildren(el("option", { value: "" }, "none"), ...meshes.map((mesh) => el("option", { value: mesh }, mesh)));
-    const sizes = Object.entries(keys?.tools ?? {}).map(([number, size]) => `${number} = ${size}`).join("\n");
-    const values = [[stock, keys?.stock], [part, keys?.part], [grid, keys?.grid], [tools, sizes]];
+    for (const input of [stock, part, grid, tools]) input.disabled = isCase || Boolean(cutting.setup.trouble) || /^\s*#/m.test(text);
+    const none = below.part ? `${below.part} (machine)` : "none";
+    part.replaceChildren(el("option", { value: "" }, none), ...meshes.map((mesh) => el("option", { value: mesh }, mesh)));
+    const sizes = (of) => Object.entries(of.tools ?? {}).map(([number, size]) => `${number} = ${size}`).join("\n");
+    stock.placeholder = below.stock ?? "box:100x80x30";
+    grid.placeholder = String(below.grid ?? "by the size");
+    tools.placeholder = sizes(below) || "1 = D10R0.5L50H40x60";
+    const values = [[stock, own.stock], [part, own.part], [grid, own.grid], [tools, sizes(own)]];
     // What somebody is typing stays.
     for (const [input, value] of values) if (input !== document.activeElement) input.value = value ?? "";
     edit.hidden = !name;
+  }
+
+  /** Where the stock and the tools come from, if not from the form alone. */
+  function source() {
+    const { name, isCase, below } = cutting.setup;
+    const from = [isCase ? `[simulate] of ${name}` : null, Object.keys(below).length ? "[simulate] of machine.toml" : null].filter(Boolean);
+    return from.length ? `Also from ${from.join(" and ")}.` : null;
   }
 
   function said({ findings, more, removed, removed_by_tool: byTool, stock: before, motions, cell, ends_only: ends, without_holder: bare }) {
@@ -58,20 +67,19 @@ export function startStock(cutting, files, posting, { open, showPath }) {
 
   function show() {
     const { report, trouble, isRunning } = cutting;
-    run.disabled = isRunning || !cutting.file() || !posting.answer?.nc;
+    const { stock: given } = cutting.setup.keys;
+    run.disabled = isRunning || !given || !posting.answer?.nc;
     see.disabled = !report;
     const lines = isRunning ? ["Cutting…"]
       : report ? said(report)
       : trouble ? trouble.split("\n")
-      : cutting.file()
+      : given
         ? [cutting.isLarge ? "A long program: press Cut." : "Waits for a program."]
         : ["Enter the stock: box:100x80x30 (X0 Y0 is its left front corner, Z0 its top), cylinder:60x100, tube:60x20x100, auto, or an STL file. Tools come from the CL file; here are those that it does not describe: 1 = D10R0.5, on a lathe 1 = Q3R0.8 for an insert."];
-    by("stock-said").replaceChildren(...lines.map((line) => el("p", { class: trouble && !isRunning ? "error" : "" }, line)));
+    by("stock-said").replaceChildren(...[...lines, source()].filter(Boolean).map((line) => el("p", { class: trouble && !isRunning ? "error" : "" }, line)));
     by("tab-stock").classList.toggle("bad", Boolean(report?.findings.length || trouble));
   }
 
-  const follow = () => load().then(show);
-  cutting.changed.on(follow);
-  files.listed.on(follow);
-  follow();
+  cutting.changed.on(() => (load(), show()));
+  cutting.look();
 }
