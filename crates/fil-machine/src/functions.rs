@@ -439,5 +439,15 @@ pub fn standard(dialect: Dialect, space: Space, code: FunctionCode) -> Option<&'
     Some(&FUNCTIONS[usize::from(numbers[at].1)])
 }
 
+/// The functions of all standard numbers of `space` that are read in foreign blocks, by number.
+pub fn standards(
+    dialect: Dialect,
+    space: Space,
+) -> impl Iterator<Item = (FunctionCode, &'static Function)> {
+    let numbers = STANDARD[usize::from(space == Space::M)][dialect as usize];
+    let row = |at: u8| &FUNCTIONS[usize::from(at)];
+    numbers.iter().map(move |(tenths, at)| (FunctionCode::tenths(*tenths), row(*at)))
+}
+
 #[cfg(test)]
 mod tests;

@@ -99,36 +99,37 @@ impl Tape {
         commons: &mut Commons,
     ) -> Result<()> {
         let addresses = &tables.addresses;
-        let mut line = Vec::new();
-        let mut noted = Vec::new();
-        let mut last = Vec::new();
+        // The usual word has no more bytes.
+        let mut line = Vec::with_capacity(words.len() * 12);
+        let mut written = Vec::with_capacity(words.len());
         for &(letter, value, cause) in words {
             let position = addresses.position(letter).ok_or_else(|| no_address(letter))?;
             let slot = addresses.slot(position);
             if addresses.blank && !line.is_empty() {
                 line.push(b' ');
             }
-            noted.push((letter.byte(), line.len(), cause));
+            let at = line.len();
             line.push(slot.character);
-            if matches!(letter, G | M) {
+            let last = if matches!(letter, G | M) {
                 let code = function(letter, value)?;
                 code.check(letter, &slot.format)?;
                 code.write(&slot.format, &mut line);
-                last.push((letter, code.value()));
+                code.value()
             } else {
                 let scaled = as_given(letter, &slot.format).scale(value, &slot.format);
                 let scaled = scaled.map_err(|diag| named(diag, letter))?;
                 slot.format.write(scaled, &mut line);
-                last.push((letter, slot.format.unscale(scaled)));
-            }
+                slot.format.unscale(scaled)
+            };
+            written.push((letter, last, at, cause));
         }
-        last.into_iter().for_each(|(letter, value)| commons.set_last_output(letter, value));
+        written.iter().for_each(|&(letter, last, ..)| commons.set_last_output(letter, last));
         let start = self.begin(true, tables, commons)?;
         let base = self.text.len() - start;
         if let Some(all) = &mut self.noted {
-            noted.iter().for_each(|&(letter, at, cause)| {
-                all.word(letter, base + at, cause, self.cause);
-            });
+            for &(letter, _, at, cause) in &written {
+                all.word(letter.byte(), base + at, cause, self.cause);
+            }
         }
         self.text.extend_from_slice(&line);
         self.end(start, tables)

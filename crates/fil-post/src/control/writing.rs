@@ -32,10 +32,10 @@ pub struct BeforeOthers {
     plane: Option<Plane>,
     /// The length of the tool is taken off by the edge of none, on a SINUMERIK.
     without_edge: bool,
-    /// Where the axes stand.
-    stood: [Option<f64>; AXES],
     /// The rotary ones may be clamped.
     clamped: bool,
+    /// Where the axes stand, under compensation and with clamps.
+    stood: [Option<f64>; AXES],
     /// Under tool-tip control: what counts in it.
     frame: Option<Frame>,
 }
@@ -249,12 +249,18 @@ impl Control {
         self.begin()?;
         self.state.foreign_begins();
         self.warnings.author_writes(self.tape.cause);
+        let compensated = self.is_compensated();
+        let clamped = self.state.may_be(modal::AXIS_CLAMP, true);
+        let stood = match compensated || clamped {
+            true => std::array::from_fn(|number| self.stands(number)),
+            false => [None; AXES],
+        };
         Ok(BeforeOthers {
-            compensated: self.is_compensated(),
+            compensated,
             plane: self.state.get(modal::PLANE),
             without_edge: self.sinumerik.edge() == Some(0),
-            stood: std::array::from_fn(|number| self.stands(number)),
-            clamped: self.state.may_be(modal::AXIS_CLAMP, true),
+            clamped,
+            stood,
             frame: self.frame_of_tip(),
         })
     }

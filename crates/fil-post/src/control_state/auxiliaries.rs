@@ -24,11 +24,11 @@ impl ControlState {
 
     /// Learns what an auxiliary function does. A call of a subprogram may do anything.
     pub fn learn_auxiliary(&mut self, code: FunctionCode, codes: &Codes, source: Source) {
-        let meanings: Vec<Meaning> = codes.auxiliaries(code).map(|row| row.meaning).collect();
-        if meanings.is_empty() {
+        let meanings = codes.auxiliaries(code).map(|row| row.meaning);
+        if meanings.clone().next().is_none() {
             return;
         }
-        let does = |meaning| meanings.contains(&meaning);
+        let does = |does| meanings.clone().any(|meaning| meaning == does);
         // The end of a subprogram behind the main program ends what is written.
         let is_behind_end = self.groups.written(PROGRAM_END) > 0;
         let returns = does(Meaning::Call(Call::Return));
@@ -58,7 +58,7 @@ impl ControlState {
             self.set(SPINDLE, Rotation::Standing);
             self.set(TOOL_CHANGED, true);
         }
-        if meanings.iter().any(|meaning| matches!(meaning, Meaning::Call(_))) {
+        if meanings.clone().any(|meaning| matches!(meaning, Meaning::Call(_))) {
             self.doubt_all(source);
         }
     }

@@ -28,10 +28,8 @@ type Named = (FunctionCode, &'static Function);
 pub struct Codes {
     /// The G codes that settings name, in the order of the table: the first of one number counts.
     preparatory: Vec<Named>,
-    /// The M codes that they name.
+    /// The M codes that they name, and the standard ones, by code.
     auxiliary: Vec<Named>,
-    /// The M codes whose effect the machine says (`[effects]`), which have no standard meaning.
-    said: Vec<FunctionCode>,
     /// Whose standard codes it has.
     dialect: Dialect,
     /// The lowest and the highest code of the work offsets.
@@ -68,11 +66,18 @@ impl Codes {
         let changes = said.iter().filter(|(_, effect)| *effect == Effect::ToolChange);
         auxiliary
             .extend(changes.zip(change.into_iter().cycle()).map(|((code, _), row)| (*code, row)));
+        // A setting replaces the standard code of what it does, and `[effects]` that of its code.
+        let is_left = |(code, row): &Named| {
+            let is_named = || auxiliary.iter().any(|(_, own)| own.meaning == row.meaning);
+            said.iter().all(|(said, _)| said != code) && (row.settings.is_empty() || !is_named())
+        };
+        let standards: Vec<Named> =
+            functions::standards(dialect, Space::M).filter(is_left).collect();
+        auxiliary.extend(standards);
         // By code, and those of one code in the order of the table.
         auxiliary.sort_by_key(|(code, _)| *code);
         Codes {
             auxiliary,
-            said: said.into_iter().map(|(code, _)| code).collect(),
             preparatory,
             dialect,
             offsets: code(loc::FIXTURE_MIN_CODE).zip(code(loc::FIXTURE_MAX_CODE)),
@@ -112,16 +117,15 @@ impl Codes {
     }
 
     /// The rows of an M code, which may do several things: M5 of a SINUMERIK stops the spindle and
-    /// ends milling. A setting replaces the standard code of what it does.
-    pub fn auxiliaries(&self, code: FunctionCode) -> impl Iterator<Item = &'static Function> {
-        let is_named =
-            |row: &Function| self.auxiliary.iter().any(|(_, own)| own.meaning == row.meaning);
-        let standard = functions::standard(self.dialect, Space::M, code);
-        let standard = standard.filter(|row| row.settings.is_empty() || !is_named(row));
-        let standard = standard.filter(|_| !self.said.contains(&code));
+    /// ends milling.
+    #[inline]
+    pub fn auxiliaries(
+        &self,
+        code: FunctionCode,
+    ) -> impl Iterator<Item = &'static Function> + Clone + '_ {
         let first = self.auxiliary.partition_point(|(named, _)| *named < code);
-        let named = self.auxiliary[first..].iter().take_while(move |(named, _)| *named == code);
-        named.map(|(_, row)| *row).chain(standard)
+        let rows = self.auxiliary[first..].iter().take_while(move |(named, _)| *named == code);
+        rows.map(|(_, row)| *row)
     }
 
     /// True for an M code that does this, among other things.

@@ -280,7 +280,11 @@ impl Doubts {
     }
 
     /// The value at which an axis stands, where nothing leaves a doubt of it.
+    #[inline]
     pub(super) fn known(&self, letter: Letter, last: f64) -> Option<f64> {
+        if !self.has(letter) && last != EMPTY {
+            return Some(last);
+        }
         let may_have_moved = self.has(letter) && self.changed.has(letter);
         match self.place(letter, last) {
             Place::At(value) if !may_have_moved => Some(value),
