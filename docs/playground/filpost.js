@@ -5,14 +5,15 @@
  * Loads the module. `bytes` are those of filpost.wasm, `words` the pages of the post words,
  * where its editors are asked. What comes back answers requests one
  * by one; a request that breaks the module (its stack or its memory is full) throws, and the
- * next one begins with a fresh module. `read` makes the answer of its JSON text.
+ * next one begins with a fresh module. `read` makes the answer of its JSON text. `progress` is told
+ * how much of a CL text has been read, 0 to 1, while the module posts.
  */
-export async function load(bytes, words, read = JSON.parse) {
+export async function load(bytes, words, read = JSON.parse, progress = () => {}) {
   const module = await WebAssembly.compile(bytes);
   let instance = null;
 
   function start() {
-    instance = new WebAssembly.Instance(module, {});
+    instance = new WebAssembly.Instance(module, { filpost: { progress } });
     if (words) ask({ do: "words", pages: words });
   }
 

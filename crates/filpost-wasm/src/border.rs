@@ -2,7 +2,8 @@
 //!
 //! The host asks for room with [`filpost_request`], writes a request there, calls
 //! [`filpost_answer`] with its length, and reads the answer of that length at
-//! [`filpost_answered`]. One request at a time: the next one takes the place of the last.
+//! [`filpost_answered`]. One request at a time: the next one takes the place of the last. While it
+//! posts, it tells the host how far it has come (`filpost.progress`).
 #![allow(unsafe_code)] // Exported names can clash with others; these begin with `filpost_`.
 
 use std::cell::RefCell;
@@ -11,6 +12,18 @@ thread_local! {
     static REQUEST: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
     static ANSWER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
+
+#[cfg(feature = "post")]
+mod host {
+    #[link(wasm_import_module = "filpost")]
+    unsafe extern "C" {
+        /// How much of the CL text was read, 0 to 1.
+        pub safe fn progress(share: f64);
+    }
+}
+
+#[cfg(feature = "post")]
+pub(crate) use host::progress;
 
 /// Room for a request of `length` bytes.
 #[unsafe(no_mangle)]

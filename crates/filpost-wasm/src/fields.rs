@@ -63,6 +63,25 @@ impl Fields {
         self.take(key)
     }
 
+    /// A number that may have a point, where there is one.
+    #[cfg(feature = "plot")]
+    pub fn decimal(&mut self, key: &str) -> Result<Option<f64>, Misuse> {
+        let Some(value) = self.take(key) else { return Ok(None) };
+        value.as_f64().map(Some).ok_or_else(|| wrong(key, "a number", &value))
+    }
+
+    /// Names with a text, a number, true or false; empty where it is left out.
+    pub fn named_values(&mut self, key: &str) -> Result<Vec<(String, String)>, Misuse> {
+        let Some(value) = self.take(key) else { return Ok(Vec::new()) };
+        let Value::Object(values) = value else { return Err(wrong(key, "an object", &value)) };
+        let shown = |(name, value): (String, Value)| match value {
+            Value::String(text) => Ok((name, text)),
+            Value::Number(_) | Value::Bool(_) => Ok((name, value.to_string())),
+            other => Err(wrong(&name, "a text, a number, true or false", &other)),
+        };
+        values.into_iter().map(shown).collect()
+    }
+
     /// A list; empty where it is left out.
     pub fn list(&mut self, key: &str) -> Result<Vec<Value>, Misuse> {
         match self.take(key) {

@@ -22,6 +22,7 @@ pub(crate) struct Job {
     compat: Option<Named>,
     strict: bool,
     allow: Vec<String>,
+    levels: Vec<(String, String)>,
     clock: Option<String>,
     fuel: Option<u64>,
     dialect: Option<String>,
@@ -40,6 +41,7 @@ impl Job {
             compat: fields.file("compat")?,
             strict: fields.flag("strict")?,
             allow: fields.texts("allow")?,
+            levels: fields.named_values("levels")?,
             clock: fields.text("clock")?,
             fuel: fields.number("fuel")?,
             dialect: fields.text("dialect")?,
@@ -62,6 +64,8 @@ impl Job {
         for name in &self.allow {
             builder = builder.allow(filpost::allowable(name).map_err(setup)?);
         }
+        let levels = self.levels.iter().map(|(name, level)| (name.as_str(), level.as_str()));
+        builder = builder.levels(&filpost::levels_named(levels).map_err(setup)?);
         for Named { name, text } in &self.fil {
             builder = builder.fil(name, text);
         }

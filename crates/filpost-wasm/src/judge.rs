@@ -32,22 +32,33 @@ fn verified(job: &Job, nc: &str) -> Result<Value, Fault> {
 }
 
 /// Answers with `equal` and the `differences` of two programs, `nc` and `other`, in words; `lines` are those of
-/// `other` and of `nc`.
+/// `other` and of `nc`. `tolerance`, `ignore` and `diameter` are those of a case.
 pub(crate) fn compare(mut fields: Fields) -> Result<Value, Misuse> {
     let machine = MachineOf::read(&mut fields)?;
     let nc = fields.needed("nc")?;
     let other = fields.needed("other")?;
+    let mut options = Options { diameter: fields.flag("diameter")?, ..Options::default() };
+    if let Some(tolerance) = fields.decimal("tolerance")? {
+        if !tolerance.is_finite() || tolerance < 0.0 {
+            return Err(Misuse(format!("tolerance: {tolerance} is no length")));
+        }
+        options.tolerance = tolerance;
+    }
+    for entry in fields.texts("ignore")? {
+        let wrong = |entry| Misuse(format!("ignore: there is no {entry}"));
+        options.ignore.add(&entry).map_err(wrong)?;
+    }
     fields.end()?;
-    Ok(match compared(&machine, &nc, &other) {
+    Ok(match compared(&machine, options, &nc, &other) {
         Ok(answer) => answer,
         Err(error) => refused(&Fault::Setup(error), &[]),
     })
 }
 
-fn compared(machine: &MachineOf, nc: &str, other: &str) -> Result<Value, Error> {
+fn compared(machine: &MachineOf, options: Options, nc: &str, other: &str) -> Result<Value, Error> {
     let commons = machine.builder().build_machine()?;
     let page = tape_style::page(&commons);
-    let options = Options { page, ..Options::default() };
+    let options = Options { page, ..options };
     let texts = [(other, "the other program"), (nc, "the program")];
     let [first, second] = texts
         .map(|(text, name)| diff::read(&in_page(page, text), name, &options).map_err(Error::Run));

@@ -15,8 +15,8 @@
 //! # Ok::<(), std::string::FromUtf8Error>(())
 //! ```
 //!
-//! **Limits.** Texts are in memory. It needs no thread, no clock and no file, and imports nothing
-//! from its host.
+//! **Limits.** Texts are in memory. It needs no thread, no clock and no file, and imports one
+//! function from its host, which is told how far a run has come.
 //!
 //! A tool of [filpost](https://crates.io/crates/filpost), without an API of its own: its items may
 //! change in any version.

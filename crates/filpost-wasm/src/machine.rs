@@ -5,12 +5,13 @@ use filpost::{Builder, Program};
 use crate::Misuse;
 use crate::fields::{Fields, Named};
 
-/// Which machine: a ready post, a `machine.toml`, an option file, and settings on top.
+/// Which machine: a ready post, a `machine.toml`, an option file, settings and options on top.
 pub(crate) struct MachineOf {
     ready: Option<String>,
     machine: Option<Named>,
     option_file: Option<Named>,
     set: Vec<String>,
+    options: Vec<(String, String)>,
 }
 
 impl MachineOf {
@@ -20,6 +21,7 @@ impl MachineOf {
             machine: fields.file("machine")?,
             option_file: fields.file("option_file")?,
             set: fields.texts("set")?,
+            options: fields.named_values("options")?,
         })
     }
 
@@ -37,6 +39,9 @@ impl MachineOf {
         }
         for setting in &self.set {
             builder = builder.set(setting);
+        }
+        for (name, value) in &self.options {
+            builder = builder.option(name, value);
         }
         builder
     }

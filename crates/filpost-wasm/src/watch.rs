@@ -37,7 +37,7 @@ impl Watch {
     #[cfg(feature = "post")]
     pub(crate) fn reading<'w>(&'w self, text: &'w str) -> Reading<'w> {
         self.whole.store(text.len() as u64, Ordering::Relaxed);
-        Reading { text: std::io::Cursor::new(text.as_bytes()), watch: self }
+        Reading { text: std::io::Cursor::new(text.as_bytes()), watch: self, told: 0 }
     }
 }
 
@@ -46,12 +46,18 @@ impl Watch {
 pub(crate) struct Reading<'w> {
     text: std::io::Cursor<&'w [u8]>,
     watch: &'w Watch,
+    /// The last hundredth that the host was told.
+    told: u64,
 }
 
 #[cfg(feature = "post")]
 impl Reading<'_> {
-    fn note(&self) {
+    fn note(&mut self) {
         self.watch.read.store(self.text.position(), Ordering::Relaxed);
+        let hundredth = (self.watch.share() * 100.0) as u64;
+        if std::mem::replace(&mut self.told, hundredth) != hundredth {
+            tell(self.watch.share());
+        }
     }
 }
 
@@ -72,3 +78,12 @@ impl Seek for Reading<'_> {
         Ok(at)
     }
 }
+
+/// Tells the host of the module how far a request has come. Elsewhere another thread looks.
+#[cfg(all(feature = "post", target_family = "wasm"))]
+fn tell(share: f64) {
+    crate::border::progress(share);
+}
+
+#[cfg(all(feature = "post", not(target_family = "wasm")))]
+fn tell(_share: f64) {}

@@ -73,6 +73,28 @@ pub fn level_named(code: &str, level: &str) -> Result<(LevelOf, Level), Box<Diag
     Ok((LevelOf::named(code)?, level))
 }
 
+/// Levels by the names of codes, of `all`, and of the `profile`, as a case names them.
+///
+/// # Errors
+/// E0713 for a code that has no level, and for what is no level.
+pub fn levels_named<'n>(
+    said: impl IntoIterator<Item = (&'n str, &'n str)>,
+) -> Result<Levels, Box<Diag>> {
+    let mut levels = Levels::default();
+    for (name, level) in said {
+        if name != "profile" {
+            let (of, level) = level_named(name, level)?;
+            of.set(&mut levels, level);
+            continue;
+        }
+        let Ok(profile) = level.parse() else {
+            return RunCode::CannotAllow.err(format!("`{level}` is not a profile of levels"));
+        };
+        levels.choose(profile);
+    }
+    Ok(levels)
+}
+
 /// The levels of a code in a sentence; `None` for one that is no doubt.
 pub fn level_line(code: &Code) -> Option<String> {
     if code.kind != CodeKind::Doubt {

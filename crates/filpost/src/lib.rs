@@ -176,7 +176,7 @@ pub use fil_vm::{Argument, Included, Limits, Moment, Returned};
 // For the tools of the workspace, which are made and released with this crate: no API. They name
 // inner things through this crate, so that each links one copy of them with the same features.
 #[doc(hidden)]
-pub use allow::{allowable, level_line, level_named};
+pub use allow::{allowable, level_line, level_named, levels_named};
 #[doc(hidden)]
 pub use compat::operation_name;
 #[doc(hidden)]

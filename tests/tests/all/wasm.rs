@@ -117,6 +117,8 @@ fn request(case: &Case) -> Value {
         "fil": file.fil.iter().map(named).collect::<Vec<_>>(),
         "includes": includes.collect::<Vec<_>>(),
         "set": file.set,
+        "options": file.options,
+        "levels": file.levels,
         "strict": file.strict,
         "allow": file.allow,
         "raw_records": file.raw_records,

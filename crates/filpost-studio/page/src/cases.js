@@ -3,7 +3,7 @@ import { baseOf, folderOf, isCl, isFil, joined } from "./files.js";
 import { MACHINE } from "./posting.js";
 
 /** Keys of a case.toml that a request to post takes as they are. */
-const KEPT = ["set", "strict", "allow", "clock", "fuel", "dialect", "raw_records", "units", "ready"];
+const KEPT = ["set", "options", "levels", "strict", "allow", "clock", "fuel", "dialect", "raw_records", "units", "ready"];
 
 /** Keys that name files, and those that say what must come or are for people. */
 const FILES = ["cl", "machine", "option_file", "fil", "compat"];
@@ -71,10 +71,10 @@ export class Cases {
       return { name, cl, state: "skipped", why: `${unknown.join(", ")}: run it with filpost test` };
     }
     const answer = await this.ask(request).catch((error) => ({ failure: error.message }));
-    return { name, cl, ...(await this.judge(name, keys, answer)) };
+    return { name, cl, ...(await this.judge(name, keys, request, answer)) };
   }
 
-  async judge(name, keys, answer) {
+  async judge(name, keys, request, answer) {
     if (answer.failure || answer.misuse) return { state: "failed", why: answer.failure ?? answer.misuse };
     const code = answer.errors?.[0]?.code;
     if (keys.expect_error) {
@@ -88,14 +88,20 @@ export class Cases {
     if (missing.length) return { state: "failed", why: `the warning ${missing[0]} does not come` };
     const expected = await this.expected({ name, keys });
     if (!expected) return keys.expect ? { state: "failed", why: `there is no ${keys.expect}` } : { state: "passed" };
-    return this.compare(keys, answer.nc, expected.text);
+    return this.compare(request, keys, answer.nc, expected.text);
   }
 
-  /** Letter by letter, or as a control reads it where the case says how. */
-  async compare(keys, nc, expected) {
+  /** Letter by letter, or as a control reads it if the case has a tolerance or ignores something. */
+  async compare(request, keys, nc, expected) {
     if (plain(nc) === expected) return { state: "passed" };
-    if (keys.tolerance !== undefined || keys.ignore?.length || keys.diameter) {
-      return { state: "skipped", why: "it is compared with a tolerance: run it with filpost test" };
+    if (keys.tolerance !== undefined || keys.ignore?.length) {
+      const { machine, ready, option_file: optionFile, set, options } = request;
+      const { tolerance = 0, ignore, diameter } = keys;
+      const answer = await this.ask({
+        do: "compare", machine, ready, option_file: optionFile, set, options, nc, other: expected, tolerance, ignore, diameter,
+      });
+      const trouble = answer.misuse ?? answer.errors?.[0]?.message ?? answer.differences?.[0]?.message;
+      return trouble ? { state: "failed", why: trouble } : { state: "passed" };
     }
     const lines = plain(nc).split("\n");
     const wanted = expected.split("\n");

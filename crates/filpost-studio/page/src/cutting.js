@@ -117,7 +117,7 @@ export class Cutting {
     try {
       const file = name && { name, text: await this.files.read(name) };
       const answer = await this.ask({
-        do: "simulate", machine, set: this.posting.recipe?.keys.set, nc, heights: true,
+        do: "simulate", machine, ...this.posting.tuning(), nc, heights: true,
         setup: isCase ? null : file, case: isCase ? file : null,
         meshes: await Promise.all(meshes.map(async (each) => ({ name: each, text: await this.files.read(each) }))),
         cl: { name: part, text: this.files.text(part) },

@@ -71,6 +71,12 @@ export class Posting {
     return text === null ? null : { name: MACHINE, text };
   }
 
+  /** What the case of the part sets on the machine. */
+  tuning() {
+    const { set, options } = this.recipe?.keys ?? {};
+    return { set, options };
+  }
+
   request() {
     const machine = this.machine();
     const cl = this.part && this.files.text(this.part);

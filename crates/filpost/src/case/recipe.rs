@@ -4,11 +4,11 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use fil_diag::{Diag, Levels};
+use fil_diag::Diag;
 use fil_vm::{Limits, Moment};
 
 use super::Case;
-use crate::allow::level_named;
+use crate::allow::levels_named;
 use crate::builder::Builder;
 use crate::error::{Error, RunCode};
 use crate::files;
@@ -117,7 +117,8 @@ impl Recipe {
         for name in &self.allow {
             builder = builder.allow(crate::allowable(name).map_err(Error::setup)?);
         }
-        builder = builder.levels(&levels(&self.levels).map_err(Error::setup)?);
+        let levels = self.levels.iter().map(|(name, level)| (name.as_str(), level.as_str()));
+        builder = builder.levels(&levels_named(levels).map_err(Error::setup)?);
         if let Some(name) = &self.ready {
             builder = builder.ready(name);
         }
@@ -239,26 +240,6 @@ impl Programs {
         drop(built);
         cell.get_or_init(|| recipe.build()).clone()
     }
-}
-
-/// The levels that a case sets.
-///
-/// # Errors
-/// E0713 for a code that has no level, and for what is no level.
-fn levels(said: &BTreeMap<String, String>) -> Result<Levels, Box<Diag>> {
-    let mut levels = Levels::default();
-    for (name, level) in said {
-        if name != "profile" {
-            let (of, level) = level_named(name, level)?;
-            of.set(&mut levels, level);
-            continue;
-        }
-        let Ok(profile) = level.parse() else {
-            return RunCode::CannotAllow.err(format!("`{level}` is not a profile of levels"));
-        };
-        levels.choose(profile);
-    }
-    Ok(levels)
 }
 
 #[cfg(test)]

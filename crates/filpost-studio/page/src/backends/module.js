@@ -28,20 +28,21 @@ class Asked {
     this.worker.postMessage({ wasm: this.wasm, words: this.words });
   }
 
-  settle({ number, text, failure }) {
+  settle({ number, text, failure, share }) {
     const waiting = this.waiting.get(number);
     if (!waiting) return;
+    if (share !== undefined) return waiting.told(share);
     this.waiting.delete(number);
     clearTimeout(waiting.timer);
     if (failure) waiting.reject(new Error(failure));
     else waiting.resolve(JSON.parse(text));
   }
 
-  /** Asks; a patient request waits until it is answered, or somebody stops it. */
-  ask(request, isPatient = false) {
+  /** Asks; a patient request waits until it is answered, or somebody stops it. `told` hears how much of it is done, 0 to 1. */
+  ask(request, isPatient = false, told = () => {}) {
     const number = ++this.number;
     return new Promise((resolve, reject) => {
-      this.waiting.set(number, { request, isPatient, resolve, reject });
+      this.waiting.set(number, { request, isPatient, told, resolve, reject });
       this.send(number);
     });
   }
@@ -74,8 +75,8 @@ class Asked {
   }
 
   /** Asks so that it can be stopped. */
-  askStoppable(request, isPatient) {
-    const answer = this.ask(request, isPatient), { number } = this;
+  askStoppable(request, told, isPatient) {
+    const answer = this.ask(request, isPatient, told), { number } = this;
     return { answer, stop: () => this.waiting.has(number) && this.giveUp(number, "it was stopped") };
   }
 }
@@ -109,8 +110,8 @@ export function moduleBackend(parts) {
   return {
     keeps: false,
     ask,
-    /** The module can't tell how far it has come; it is stopped with its worker, and so only where somebody asks for that. */
-    watched: (request, told, isPatient) => ({ ...first.askStoppable(request, isPatient), supersede: () => {} }),
+    /** The module is stopped with its worker, and so only where somebody asks for that. */
+    watched: (request, told, isPatient) => ({ ...first.askStoppable(request, told, isPatient), supersede: () => {} }),
     list: async () => ({
       folder: "playground", all: true,
       files: [...kept].map(([name, { text, stamp }]) => ({ name, size: text.length, stamp })),

@@ -52,7 +52,7 @@ export class Compare {
     }
     const text = await this.files.read(name);
     this.other = text;
-    const answer = await this.ask({ do: "compare", machine: this.posting.machine(), nc, other: text }).catch((error) => ({ errors: [{ message: error.message }] }));
+    const answer = await this.ask({ do: "compare", machine: this.posting.machine(), ...this.posting.tuning(), nc, other: text }).catch((error) => ({ errors: [{ message: error.message }] }));
     if (this.posting.answer?.nc !== nc) return;
     if (answer.errors) {
       said.textContent = `They can't be compared: ${answer.errors[0].message}`;

@@ -73,7 +73,7 @@ export class PathPane {
   async columns(texts) {
     const machine = this.posting.machine();
     if (!machine) return null;
-    const answer = await this.ask({ do: "columns", machine, ...texts });
+    const answer = await this.ask({ do: "columns", machine, ...this.posting.tuning(), ...texts });
     return answer.columns ? this.read(answer) : null;
   }
 
