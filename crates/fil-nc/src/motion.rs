@@ -50,6 +50,14 @@ impl Position {
     pub fn names_tip(&self) -> bool {
         self.tip_control || self.tilt.is_some()
     }
+
+    /// X, Y, Z in mm, then the primary and the secondary rotary axis in degrees.
+    pub fn axis(&self, number: usize) -> f64 {
+        match number {
+            0..3 => self.linear[number],
+            _ => self.rotary[number - 3],
+        }
+    }
 }
 
 /// How a motion is driven.

@@ -32,6 +32,13 @@ impl<C: Steps> Verifier<'_, C> {
 
     /// The tool has come away from the part, or goes to it, by this motion.
     pub(super) fn leaves_or_comes(&mut self, found: &Move) {
+        for n in 0..5 {
+            let stays = !found.known[n] && found.to.axis(n) == self.at.axis(n);
+            self.memory.machine_at[n] = match found.to_machine[n] {
+                true => Some(found.to.axis(n)),
+                false => self.memory.machine_at[n].filter(|_| stays),
+            };
+        }
         if found.to_machine[2] && self.settings.dialect.has(Habit::PositionsEndLengths) {
             self.expected.length_is_taken_off();
         }

@@ -66,24 +66,20 @@ impl<C: Steps> Verifier<'_, C> {
     }
 
     /// Motions to a point in the frame of the machine, mm and degrees, Z before all others; an
-    /// axis without a value stays. True when they are as they must be.
+    /// axis without a value stays. An axis that stands there may stay. True when they are as they
+    /// must be.
     pub(super) fn go_in_machine_frame(&mut self, cl_line: u32, to: [Option<f64>; 5]) -> bool {
         self.pass_still(cl_line);
         let mut open = to;
         while open.iter().any(Option::is_some) {
             let found = self.next_move().filter(|found| found.course == Course::Machine);
+            if found.is_none() && (0..5).all(|n| open[n].is_none_or(|to| self.is_there(n, to))) {
+                break;
+            }
             let Some(found) = found else {
                 let message = "no motion to the position of the machine".to_string();
                 self.find(FindingKind::Missing, Some(cl_line), None, message);
                 return false;
-            };
-            let value = |at: &Position, n: usize| match n {
-                0..3 => at.linear[n],
-                _ => at.rotary[n - 3],
-            };
-            let slack = |n: usize| match n {
-                0..3 => self.slack.linear[n],
-                _ => self.slack.rotary[n - 3],
             };
             // While a mill-turn machine turns, the axis C is its spindle.
             let is_spindle = self.settings.is_mill_turn() && !self.expected.mills();
@@ -92,12 +88,12 @@ impl<C: Steps> Verifier<'_, C> {
             // named goes to a place of the machine, which says nothing of where it stood.
             let stands = self.out_of_polar(&found).unwrap_or_else(|| self.at_as(&found));
             let moved = |n: &usize| {
-                let differs = (value(&found.to, *n) - value(&stands, *n)).abs() > STILL;
+                let differs = (found.to.axis(*n) - stands.axis(*n)).abs() > STILL;
                 is_axis(*n) && (found.to_machine[*n] || differs)
             };
             let arrives = |n: usize| {
                 to[n].is_some_and(|to| {
-                    found.to_machine[n] && (value(&found.to, n) - to).abs() <= slack(n)
+                    found.to_machine[n] && (found.to.axis(n) - to).abs() <= self.slack_of(n)
                 })
             };
             let astray = (0..5).filter(moved).any(|n| !arrives(n));
@@ -106,10 +102,11 @@ impl<C: Steps> Verifier<'_, C> {
             }
             // Of a lathe both go at once: alone one of them may go through the wall of a groove.
             // The settings may say that X goes first.
+            let reached = |n: usize| open[n].is_none_or(|to| self.is_there(n, to));
             let rises = match self.settings.is_lathe() {
-                true if self.settings.goes_home_x_first() => open[0].is_none(),
-                true => open[..3].iter().all(Option::is_none),
-                false => open[2].is_none(),
+                true if self.settings.goes_home_x_first() => reached(0),
+                true => (0..3).all(reached),
+                false => reached(2),
             };
             self.check_edge_is_off(cl_line, &found);
             self.stand(&found);
@@ -122,6 +119,19 @@ impl<C: Steps> Verifier<'_, C> {
         self.facts.set(Fact::Away, true);
         self.watch.stand(None);
         true
+    }
+
+    /// An axis stands at this position in the frame of the machine, mm or degrees.
+    fn is_there(&self, n: usize, to: f64) -> bool {
+        self.memory.machine_at[n].is_some_and(|at| (at - to).abs() <= self.slack_of(n))
+    }
+
+    /// What the rounding of an axis may make, mm or degrees.
+    fn slack_of(&self, n: usize) -> f64 {
+        match n {
+            0..3 => self.slack.linear[n],
+            _ => self.slack.rotary[n - 3],
+        }
     }
 
     /// Where X and C of a mill-turn machine without Y stand behind polar interpolation, as a motion

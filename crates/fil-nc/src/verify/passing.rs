@@ -129,6 +129,7 @@ impl<C: Steps> Verifier<'_, C> {
                 }
                 Event::ToolChange { tool, .. } => {
                     self.expected.insert_tool(tool);
+                    self.memory.machine_at = [None; 5];
                     self.next += 1;
                 }
                 Event::Dwell { .. } => self.next += 1,

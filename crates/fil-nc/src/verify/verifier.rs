@@ -189,6 +189,7 @@ impl<'a, C: Steps> Verifier<'a, C> {
                 self.tool(step.line, *number, self.settings.tool_offset(*number, *offset));
                 self.cutter = self.cutter.filter(|_| self.facts.has(Fact::FreshCutter));
                 self.facts.set(Fact::FreshTool, true);
+                self.memory.machine_at = [None; 5];
             }
             ExpectedStep::ToolLeftOut { number, offset } => {
                 let offset = self.settings.tool_offset(*number, *offset);

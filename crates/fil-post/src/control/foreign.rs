@@ -117,7 +117,7 @@ impl Control {
             Effect::DoubtAxes => state.doubt_axes(),
             Effect::LoseAxes => state.lose_axes(),
             Effect::ShiftAxes => state.shift_axes(Source::Author),
-            Effect::Clears(letter) => state.clears(letter),
+            Effect::Clears(letter, spot) => state.clears(letter, spot),
             Effect::Stands(letter, value) => state.stand(letter, value),
             Effect::ToolChangeMoves => self.tool_change_moves(),
             Effect::Auxiliary(number) => klartext::reader::learn_function(self, number),
@@ -139,7 +139,7 @@ impl Control {
     /// A call of the shop has brought all axes clear of the part.
     fn returns_clear(&mut self) {
         for number in self.tables.present().numbers() {
-            self.state.clears(self.tables.axis(number).letter);
+            self.state.clears(self.tables.axis(number).letter, None);
         }
         self.state.length_ends_at_machine(&self.codes, |_| true);
         self.state.forget(modal::MOTION, Source::Author);

@@ -10,6 +10,7 @@ use fil_machine::{FunctionCode, Letter};
 use super::{Control, full_turn};
 use crate::cause::Cause;
 use crate::control::needs::Act;
+use crate::control_state::MachineSpot;
 use crate::errors::PostCode;
 use crate::operation::motion::Motion;
 
@@ -69,8 +70,9 @@ pub fn go(control: &mut Control, motion: &Motion, before: Before, cause: Cause) 
             "machine coordinates while the active cutting edge is unknown: the D word that cancels the tool length offset could not be restored",
         );
     }
+    let there = if before == Before::Others { AxisSet::NONE } else { at_target(control, motion)? };
     for group in groups(control) {
-        let axes = group.and(motion.axes).and(present);
+        let axes = group.and(motion.axes).and(present).without(there);
         if !axes.is_empty() {
             control.because(cause, |control| block(control, &motion.of(axes)))?;
         }
@@ -95,27 +97,51 @@ fn groups(control: &Control) -> [AxisSet; 3] {
     }
 }
 
+/// Where a motion brings an axis, with the axis' word in machine coordinates.
+fn target(control: &Control, motion: &Motion, number: usize) -> Result<(MachineSpot, i64)> {
+    let axis = control.tables.axis(number);
+    // A zero that the control has shifted does not count in this frame.
+    let zero = control.tables.zero().get(number).copied().unwrap_or(0.0);
+    let to = motion.position[number] + zero;
+    let spot = match reference(control) {
+        Some(function) => MachineSpot::Reference(function),
+        None => MachineSpot::At(axis.value(to)?),
+    };
+    Ok((spot, axis.scaled(to)?))
+}
+
+/// The axes of a motion that stand where it brings them: an author's block, GOHOME or RETRCT has
+/// been there.
+fn at_target(control: &Control, motion: &Motion) -> Result<AxisSet> {
+    let mut there = AxisSet::NONE;
+    for number in motion.axes.numbers() {
+        let letter = control.tables.axis(number).letter;
+        if control.state.machine_spot(letter) == Some(target(control, motion, number)?.0) {
+            there = there.or(AxisSet::of(number));
+        }
+    }
+    Ok(there)
+}
+
 fn block(control: &mut Control, motion: &Motion) -> Result<()> {
     control.family().ready(control)?;
-    // A zero that the control has shifted does not count in this frame.
-    let zero = control.tables.zero();
     if !motion.axes.and(AxisSet::ROTARY).is_empty() {
         full_turn::release(control)?;
     }
     for number in motion.axes.numbers() {
         let axis = *control.tables.axis(number);
         let Some(position) = axis.tape_position()? else { continue };
-        let to = motion.position[number] + zero.get(number).copied().unwrap_or(0.0);
         match of_increments(control, axis.letter) {
             Some(letter) => control.word(letter, 0.0)?,
-            None => control.block.put(position, axis.scaled(to)?),
+            None => control.block.put(position, target(control, motion, number)?.1),
         }
     }
     control.family().to_machine_position(control)?;
     for number in motion.axes.numbers() {
         let letter = control.tables.axis(number).letter;
+        let (spot, _) = target(control, motion, number)?;
         control.commons.set_last_output(letter, EMPTY);
-        control.state.clears(letter);
+        control.state.clears(letter, Some(spot));
     }
     let moved = |axis| motion.axes.numbers().any(|n| control.tables.axis(n).letter == axis);
     control.state.length_ends_at_machine(&control.codes, moved);

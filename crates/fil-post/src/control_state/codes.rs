@@ -11,7 +11,7 @@ use fil_machine::modes::FeedMode;
 use fil_machine::setting::CodeAt;
 use fil_machine::{Commons, FunctionCode, Letter, letters};
 
-use super::{Rotation, functions, length};
+use super::{MachineSpot, Rotation, functions, length};
 
 /// G34 and G35 of a SINUMERIK: threading moves whose lead grows, and shrinks.
 pub const VARYING_LEADS_OF_SINUMERIK: [FunctionCode; 2] =
@@ -145,6 +145,26 @@ impl Codes {
     /// True for a code whose block goes to positions of the machine, or to a reference point.
     pub fn goes_to_machine(&self, code: FunctionCode) -> bool {
         matches!(self.meaning(code), Meaning::Origin(origin) if origin.is_of_machine())
+    }
+
+    /// Where a block brings an axis whose word has this value: a reference point, or the value in
+    /// machine coordinates. On a SINUMERIK the length of the cutting edge counts in those.
+    pub fn machine_spot(
+        &self,
+        words: &[(Letter, f64)],
+        value: f64,
+        is_absolute: bool,
+    ) -> Option<MachineSpot> {
+        let is_second = |(letter, value): &(Letter, f64)| letter.byte() == b'P' && *value != 2.0;
+        functions(words).find_map(|code| match self.meaning(code) {
+            Meaning::Origin(Origin::Home) if !words.iter().any(is_second) => {
+                Some(MachineSpot::Reference(code))
+            }
+            Meaning::Origin(Origin::Machine) if is_absolute && !self.keeps_cycles() => {
+                Some(MachineSpot::At(value))
+            }
+            _ => None,
+        })
     }
 
     /// True for a code that chooses a work offset, by itself or by a word beside it.

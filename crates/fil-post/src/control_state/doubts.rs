@@ -1,8 +1,8 @@
 //! Which last output values the control does not have, and what is known of where those
 //! axes stand all the same.
 
-use fil_machine::Letter;
 use fil_machine::commons::EMPTY;
+use fil_machine::{FunctionCode, Letter};
 
 use super::Source;
 use super::levels::Levels;
@@ -58,6 +58,15 @@ pub enum Place {
     LeftToScript(f64),
 }
 
+/// Where an axis stands in the frame of the machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MachineSpot {
+    /// At this value of the tape in machine coordinates (G53, M91), mm or inch.
+    At(f64),
+    /// At the reference point of this function (G28, G30).
+    Reference(FunctionCode),
+}
+
 /// The letters in doubt.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Doubts {
@@ -73,6 +82,8 @@ pub(super) struct Doubts {
     shifted_by_author: LetterSet,
     /// A position of the machine has brought their axes clear of the part.
     clear: LetterSet,
+    /// Of them, those whose position is known.
+    spots: [Option<(Letter, MachineSpot)>; 5],
     /// A tool change has: it may leave them where they are, too.
     changed: LetterSet,
     /// They had a last output value before it was made EMPTY.
@@ -121,6 +132,8 @@ impl Doubts {
             set.remove(letter);
         }
         self.set_levels(letter, None);
+        let is_its = |slot: &&mut Option<_>| slot.is_some_and(|(other, _)| other == letter);
+        self.spots.iter_mut().filter(is_its).for_each(|slot| *slot = None);
     }
 
     /// The axis may have gone anywhere.
@@ -169,17 +182,26 @@ impl Doubts {
         }
     }
 
-    /// A position of the machine has brought the axis clear of the part.
-    pub(super) fn clears(&mut self, letter: Letter) {
+    /// A position of the machine, which may be known, has brought the axis clear of the part.
+    pub(super) fn clears(&mut self, letter: Letter, spot: Option<MachineSpot>) {
         self.add(letter);
         self.settle(letter);
         self.clear.add(letter);
+        if let Some(free) = self.spots.iter_mut().find(|slot| slot.is_none()) {
+            *free = spot.map(|spot| (letter, spot));
+        }
         self.had_value.add(letter);
         let is_its =
             |slot: &&mut Option<(Letter, f64)>| slot.is_some_and(|(other, _)| other == letter);
         if let Some(slot) = self.emptied.iter_mut().find(is_its) {
             *slot = None;
         }
+    }
+
+    /// Where the axis stands in the frame of the machine, if it is known.
+    pub(super) fn spot(&self, letter: Letter) -> Option<MachineSpot> {
+        let spots = self.spots.iter().flatten().filter(|_| self.has(letter));
+        spots.filter(|(other, _)| *other == letter).map(|(_, spot)| *spot).next()
     }
 
     /// True where a position of the machine or a tool change has brought the axis away from
@@ -306,6 +328,10 @@ impl Doubts {
         self.shifted_by_author.0 &= other.shifted_by_author.0;
         self.shifted.0 |= other.shifted.0;
         self.clear.0 &= other.clear.0;
+        self.spots
+            .iter_mut()
+            .filter(|slot| !other.spots.contains(slot))
+            .for_each(|slot| *slot = None);
         self.changed.0 &= other.changed.0;
         self.had_value.0 |= other.had_value.0;
     }

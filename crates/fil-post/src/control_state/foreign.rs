@@ -4,6 +4,7 @@
 
 use fil_machine::{FunctionCode, Letter, letters};
 
+use super::doubts::MachineSpot;
 use super::modal::{Group, Modal, Of, Value};
 
 /// In which frame the axis words of a block count.
@@ -37,8 +38,8 @@ pub enum Effect {
     LoseAxes,
     /// The axes count from another zero.
     ShiftAxes,
-    /// An axis stands at a position of the machine.
-    Clears(Letter),
+    /// An axis stands at a position of the machine, which may be known.
+    Clears(Letter, Option<MachineSpot>),
     /// An axis stands at this value of the tape.
     Stands(Letter, f64),
     /// A tool change may have moved all axes.

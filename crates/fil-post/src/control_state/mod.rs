@@ -26,7 +26,7 @@ use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::{Commons, FunctionCode, Letter, letters};
 
 use doubts::Doubts;
-pub use doubts::Place;
+pub use doubts::{MachineSpot, Place};
 pub use length::Length;
 pub use levels::Levels;
 use modal::{
@@ -270,9 +270,14 @@ impl ControlState {
         self.doubts.changes(letter);
     }
 
-    /// A position of the machine has brought an axis clear of the part.
-    pub fn clears(&mut self, letter: Letter) {
-        self.doubts.clears(letter);
+    /// A position of the machine, which may be known, has brought an axis clear of the part.
+    pub fn clears(&mut self, letter: Letter, spot: Option<MachineSpot>) {
+        self.doubts.clears(letter, spot);
+    }
+
+    /// Where the axis of a letter stands in the frame of the machine, if it is known.
+    pub fn machine_spot(&self, letter: Letter) -> Option<MachineSpot> {
+        self.doubts.spot(letter)
     }
 
     /// An axis stands at this value of the tape, which is not its last output value.
@@ -295,7 +300,7 @@ impl ControlState {
     pub(super) fn turn_axes(&mut self) {
         for letter in AXIS_LETTERS {
             if self.doubts.is_clear(letter) {
-                self.doubts.clears(letter);
+                self.doubts.clears(letter, None);
             } else {
                 self.doubts.lose(letter);
             }

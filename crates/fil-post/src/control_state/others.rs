@@ -252,7 +252,10 @@ impl ControlState {
             if ways.home && named().next().is_none() {
                 self.lose_axes();
             }
-            named().for_each(|letter| self.clears(codes.moved_by(letter)));
+            let counts = self.is(DISTANCE, Distance::Absolute);
+            for word in words.iter().filter(|(letter, _)| is_axis(*letter)) {
+                self.clears(codes.moved_by(word.0), codes.machine_spot(words, word.1, counts));
+            }
         } else if ways.astray {
             self.lose_axes();
             self.doubts.returned = ways.returns;

@@ -139,7 +139,7 @@ pub(super) fn forget_positions(control: &mut Control) {
     for number in AxisSet::LINEAR.numbers() {
         let letter = control.tables.axis(number).letter;
         control.commons.set_last_output(letter, EMPTY);
-        control.state.clears(letter);
+        control.state.clears(letter, None);
     }
 }
 

@@ -313,7 +313,7 @@ pub fn end(control: &mut Control) -> Result<()> {
         control.state.remember(axis.letter, last);
         control.commons.set_last_output(axis.letter, EMPTY);
         match slides {
-            _ if goes_up => control.state.clears(axis.letter),
+            _ if goes_up => control.state.clears(axis.letter, None),
             Some(slides) => control.state.stand(axis.letter, axis.value(slides[number])?),
             None => control.state.loses_by_post(axis.letter),
         }

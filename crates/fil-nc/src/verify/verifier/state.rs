@@ -93,6 +93,9 @@ pub(in super::super) struct StepMemory {
     pub(in super::super) rapid_to: Option<Pose>,
     /// End of the last arc in the CL file, and as the machine corrects it.
     pub(in super::super) corrected_end: Option<[Point3<f64>; 2]>,
+    /// Where the axes stand in the frame of the machine, mm and degrees, as long as nothing has moved
+    /// them from there.
+    pub(in super::super) machine_at: [Option<f64>; 5],
     /// Level the control's cycle began from.
     pub(in super::super) initial: Option<f64>,
     /// From the directions of the hole, in which its moves are written.

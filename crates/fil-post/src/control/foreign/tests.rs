@@ -3,7 +3,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::cause::Cause;
-use crate::control_state::{Rotation, TextFrame, modal};
+use crate::control_state::{MachineSpot, Rotation, TextFrame, modal};
 
 /// A control of a machine with these settings.
 fn control_of(settings: &str) -> Control {
@@ -80,7 +80,7 @@ fn lines_of_klartext_become_effects() {
     let z = Letter::of(b'Z');
     assert_eq!(
         klartext("12 L Z+5.5 M91 ; up").effects,
-        [Effect::DoubtAxes, Effect::Clears(z), Effect::DoubtAxes]
+        [Effect::DoubtAxes, Effect::Clears(z, Some(MachineSpot::At(5.5))), Effect::DoubtAxes]
     );
     assert_eq!(klartext("L Z+5.5").effects, [Effect::DoubtAxes, Effect::Stands(z, 5.5)]);
     assert_eq!(klartext("CYCL DEF 7.0 DATUM SHIFT").effects[1..], [Effect::ShiftAxes]);

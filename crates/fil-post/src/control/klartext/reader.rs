@@ -6,7 +6,8 @@ use fil_machine::{FunctionCode, Letter, letters};
 
 use crate::control::Control;
 use crate::control_state::{
-    Compensation, CutterPath, Distance, Effect, ForeignBlock, Rotation, Source, TOOL_CHANGE, modal,
+    Compensation, CutterPath, Distance, Effect, ForeignBlock, MachineSpot, Rotation, Source,
+    TOOL_CHANGE, modal,
 };
 
 /// What an M function does to what the post counts on.
@@ -80,7 +81,7 @@ pub fn read(text: &str) -> ForeignBlock {
         [name, "=", ..] if is_parameter(name) => {}
         // The tool goes along its axis to the end of the travel.
         ["M140", "MB", "MAX"] | ["L", "M140", "MB", "MAX"] => {
-            block.effects.extend([Effect::DoubtAxes, Effect::Clears(letters::XYZ[2])]);
+            block.effects.extend([Effect::DoubtAxes, Effect::Clears(letters::XYZ[2], None)]);
         }
         ["L", ref rest @ ..] => motion(&mut block, rest),
         [first, ..] if first.starts_with('M') => motion(&mut block, &items),
@@ -134,16 +135,35 @@ fn is_parameter(name: &str) -> bool {
     digits.and_then(|digits| digits.parse::<u32>().ok()).is_some_and(|n| n < OF_OTHERS)
 }
 
+/// The frame in which the positions of a line count, where it is not that of the part.
+#[derive(Clone, Copy)]
+enum MachineFrame {
+    /// Machine coordinates (M91).
+    OfTheMachine,
+    /// From a point that the builder of the machine has chosen (M92).
+    OfTheBuilder,
+}
+
+impl MachineFrame {
+    fn of(item: &str) -> Option<Self> {
+        match item {
+            "M91" => Some(MachineFrame::OfTheMachine),
+            "M92" => Some(MachineFrame::OfTheBuilder),
+            _ => None,
+        }
+    }
+}
+
 /// The items of an L line or of one that has only functions.
 fn motion(block: &mut ForeignBlock, items: &[&str]) {
-    let of_machine = items.iter().any(|item| matches!(*item, "M91" | "M92"));
+    let frame = items.iter().find_map(|item| MachineFrame::of(item));
     for item in items {
         match *item {
             "FMAX" => {}
             "R0" => side(block, Compensation::Off),
             "RL" => side(block, Compensation::Left),
             "RR" => side(block, Compensation::Right),
-            _ => word(block, item, of_machine),
+            _ => word(block, item, frame),
         }
     }
 }
@@ -158,7 +178,7 @@ fn side(block: &mut ForeignBlock, side: Compensation) {
         .extend([Effect::set(modal::CUTTER_COMP, side), Effect::set(modal::CUTTER_PATH, path)]);
 }
 
-fn word(block: &mut ForeignBlock, item: &str, of_machine: bool) {
+fn word(block: &mut ForeignBlock, item: &str, frame: Option<MachineFrame>) {
     let mut rest = item.chars();
     let first = rest.next();
     let number = rest.as_str().parse::<f64>();
@@ -184,9 +204,12 @@ fn word(block: &mut ForeignBlock, item: &str, of_machine: bool) {
         (Some('F'), Ok(_)) => effects.push(Effect::Doubt(letters::F)),
         (Some(axis @ ('X' | 'Y' | 'Z' | 'A' | 'B' | 'C' | 'U' | 'V' | 'W')), Ok(value)) => {
             effects.push(Effect::DoubtAxes);
-            effects.extend(Letter::of_character(axis).map(|letter| match of_machine {
-                true => Effect::Clears(letter),
-                false => Effect::Stands(letter, value),
+            effects.extend(Letter::of_character(axis).map(|letter| match frame {
+                Some(MachineFrame::OfTheMachine) => {
+                    Effect::Clears(letter, Some(MachineSpot::At(value)))
+                }
+                Some(MachineFrame::OfTheBuilder) => Effect::Clears(letter, None),
+                None => Effect::Stands(letter, value),
             }));
         }
         (Some('I'), _) if rest.as_str().len() > 1 => effects.push(Effect::LoseAxes),
