@@ -1,21 +1,33 @@
 //! The back-check of programs that a test holds in memory.
 
+use std::collections::VecDeque;
+
 use fil_cl::{Options, Reader};
 use fil_nc::dialect::Dialect;
-use fil_nc::interpret;
+use fil_nc::events::Events;
+use fil_nc::interpret::{self, PassedOver, Running};
 use fil_nc::motion::Event;
 use fil_nc::source::Source;
 use fil_nc::verify::{Allowed, Check, Report, verify};
 use filpost::{Commons, Diag, Program, Unit};
+
+/// What a program does on a machine, with its refused lines passed over.
+#[derive(Clone, Debug)]
+pub struct Followed {
+    /// Its events.
+    pub events: Vec<Event>,
+    /// Why lines were refused.
+    pub refused: Vec<Diag>,
+}
 
 /// What a program does on a machine, and what it does with the blocks left out that may be
 /// skipped, where it has some.
 #[derive(Clone, Debug)]
 pub struct Both {
     /// All blocks are run.
-    pub all: Vec<Event>,
+    pub all: Followed,
     /// Blocks that may be skipped are left out.
-    pub left_out: Option<Vec<Event>>,
+    pub left_out: Option<Followed>,
 }
 
 /// What a program does on a machine.
@@ -32,12 +44,24 @@ pub fn events(commons: &Commons, nc: &str) -> Result<Vec<Event>, Box<Diag>> {
 /// A program that can't be followed, one way or the other.
 pub fn both(commons: &Commons, nc: &str) -> Result<Both, Box<Diag>> {
     let dialect = Dialect::new(commons)?;
-    let nc = nc.as_bytes();
-    let all = interpret::events(nc, "out.nc", &dialect)?;
-    let skips = interpret::has_skipped_blocks(&Source::memory(nc), "out.nc", &dialect)?;
-    let leave_out = || interpret::events(nc, "out.nc", &dialect.skipping_blocks());
-    let left_out = skips.then(leave_out).transpose()?;
+    let nc = &Source::memory(nc.as_bytes());
+    let all = follow(nc, &dialect)?;
+    let skips = interpret::has_skipped_blocks(nc, "out.nc", &dialect)?;
+    let left_out = skips.then(|| follow(nc, &dialect.skipping_blocks())).transpose()?;
     Ok(Both { all, left_out })
+}
+
+fn follow(nc: &Source<'_>, dialect: &Dialect) -> Result<Followed, Box<Diag>> {
+    let passed = PassedOver::default();
+    let mut running = Running::new(nc, "out.nc", dialect).passing_over(&passed);
+    let mut events = VecDeque::new();
+    loop {
+        match running.more(&mut events) {
+            Ok(true) => {}
+            Ok(false) => return Ok(Followed { events: events.into(), refused: passed.take() }),
+            Err(last) => return Err(passed.take().into_iter().next().map_or(last, Box::new)),
+        }
+    }
 }
 
 /// Compares a program that does this with a CL file; one without UNITS is in the unit
@@ -52,7 +76,7 @@ pub fn compare(
     allowed: Allowed,
 ) -> Result<Report, Box<Diag>> {
     let nc = &Source::memory(nc);
-    let one_way = |mut events: &[Event], skips_blocks: bool| {
+    let one_way = |followed: &Followed, skips_blocks: bool| {
         let cl_name = "part.ncl";
         let cl = Reader::new(cl, cl_name, Options::default());
         let unit = Unit::of_machine(commons);
@@ -63,7 +87,8 @@ pub fn compare(
             unit,
             nc,
             nc_name: "out.nc",
-            events: &mut events,
+            events: &mut &followed.events[..],
+            passed: &PassedOver::from(followed.refused.clone()),
             commons,
             allowed,
             skips_blocks,

@@ -11,7 +11,7 @@ use std::process::ExitCode;
 use fil_nc::cl::{Options, Reader};
 use fil_nc::diag::Diag;
 use fil_nc::dialect::Dialect;
-use fil_nc::interpret::Running;
+use fil_nc::interpret::{PassedOver, Running};
 use fil_nc::machine::files::lay_over;
 use fil_nc::machine::locations::default_commons;
 use fil_nc::machine::{Commons, Unit};
@@ -32,13 +32,15 @@ fn check(cl: &[u8], nc: &[u8], machine: &str) -> Result<Report, Vec<Diag>> {
 fn compare(cl: &[u8], nc: &[u8], commons: &Commons) -> Result<Report, Box<Diag>> {
     let dialect = Dialect::new(commons)?;
     let source = Source::memory(nc);
+    let passed = PassedOver::default();
     verify(Check {
         cl: Reader::new(cl, "the CL file", Options::default()),
         cl_name: "the CL file",
         unit: Some(Unit::Mm),
         nc: &source,
         nc_name: "the program",
-        events: &mut Running::new(&source, "the program", &dialect),
+        events: &mut Running::new(&source, "the program", &dialect).passing_over(&passed),
+        passed: &passed,
         commons,
         allowed: Allowed::default(),
         skips_blocks: dialect.leaves_blocks_out(),

@@ -15,7 +15,8 @@
 //! ```
 //! use fil_nc::machine::{Commons, Unit, locations::default_commons};
 //! use fil_nc::verify::{Allowed, Check, Verdict, verify};
-//! use fil_nc::{cl, dialect::Dialect, interpret::Running, source::Source};
+//! use fil_nc::interpret::{PassedOver, Running};
+//! use fil_nc::{cl, dialect::Dialect, source::Source};
 //!
 //! let machine: Commons = default_commons();
 //! let dialect = Dialect::new(&machine)?;
@@ -28,6 +29,7 @@
 //!     nc: &nc,
 //!     nc_name: "part.nc",
 //!     events: &mut Running::new(&nc, "part.nc", &dialect),
+//!     passed: &PassedOver::default(),
 //!     commons: &machine,
 //!     allowed: Allowed::default(),
 //!     skips_blocks: false,

@@ -13,7 +13,7 @@ use fil_cl::{Options, Reader};
 use fil_diag::Diag;
 use fil_nc::dialect::Dialect;
 use fil_nc::events::ahead;
-use fil_nc::interpret::{Running, has_skipped_blocks};
+use fil_nc::interpret::{PassedOver, Running, has_skipped_blocks};
 use fil_nc::source::Source;
 use fil_nc::verify::{
     Check, Programs, Unfollowed, compare_programs, compare_words, refuse_another_part, verify,
@@ -135,7 +135,9 @@ impl Run<'_> {
         let name = self.name();
         let known =
             units::known_before(self.units, None, self.program.commons()).map_err(Error::Run)?;
-        let compared = ahead(Running::new(nc, nc_name, dialect), |events| {
+        let passed = PassedOver::default();
+        let program = Running::new(nc, nc_name, dialect).passing_over(&passed);
+        let compared = ahead(program, |events| {
             verify(Check {
                 cl: Reader::new(cl, &name, Options { raw: false, ..self.reading }),
                 cl_name: &name,
@@ -143,6 +145,7 @@ impl Run<'_> {
                 nc,
                 nc_name,
                 events,
+                passed: &passed,
                 commons: self.program.commons(),
                 allowed,
                 skips_blocks: dialect.leaves_blocks_out(),

@@ -47,7 +47,7 @@ fn check(case: &NcCase, nc: &str) -> Result<Report, Box<Diag>> {
 
 /// What a program does with the blocks left out that may be skipped.
 fn left_out(both: &Both) -> &[Event] {
-    both.left_out.as_deref().unwrap_or(&both.all)
+    &both.left_out.as_ref().unwrap_or(&both.all).events
 }
 
 /// Compares with another program, whichever way the switch is.
@@ -61,7 +61,7 @@ fn against_program(case: &NcCase, original: &Both, found: &Both) -> Report {
         };
         compare_programs(programs).expect("events that were read")
     };
-    let report = compare(&original.all, &found.all);
+    let report = compare(&original.all.events, &found.all.events);
     if original.left_out.is_none() && found.left_out.is_none() {
         return report;
     }
@@ -124,7 +124,10 @@ enum Fate {
 
 fn fate(case: &NcCase, original: &Both, nc: &str) -> Fate {
     let Ok(found) = events(case, nc) else { return Fate::Refused };
-    let same = same_events::same(&found.all, &original.all)
+    if found.all.refused.len() > original.all.refused.len() {
+        return Fate::Refused;
+    }
+    let same = same_events::same(&found.all.events, &original.all.events)
         && same_events::same(left_out(&found), left_out(original));
     if same {
         return Fate::Same;
@@ -194,7 +197,8 @@ fn near_poses(case: &NcCase, original: &Both, mutant: &Mutant) -> bool {
         return false;
     }
     let Ok(found) = events(case, &mutant.text) else { return false };
-    forward.has_rotary() && same_events::near_poses(&found.all, &original.all, &forward)
+    forward.has_rotary()
+        && same_events::near_poses(&found.all.events, &original.all.events, &forward)
 }
 
 /// Programs that get faults, each with its number among all.

@@ -16,6 +16,7 @@ mod live_cycle;
 mod modes;
 mod order;
 mod osp_thread;
+mod passed_over;
 mod program;
 mod sinumerik;
 mod state;
@@ -40,6 +41,7 @@ use crate::events::Events;
 use crate::motion::Event;
 use crate::source::{Lines, Source, unreadable};
 
+pub use passed_over::{PassedOver, PassingOver};
 pub(crate) use sinumerik::line as sinumerik_words;
 pub(crate) use sinumerik::number_of_tool;
 
@@ -138,6 +140,16 @@ impl Running<'_> {
             Control::WordAddress(program) => program.forget(),
             Control::Klartext(program) => program.forget(),
             Control::Sinumerik(program) => program.forget(),
+        }
+    }
+
+    /// Goes on after a refusal as if the refused line were not there; false where it is one before
+    /// the last that was read.
+    fn pass_over(&mut self) -> bool {
+        match &mut self.control {
+            Control::WordAddress(program) => program.pass_over(),
+            Control::Klartext(program) => program.pass_over(),
+            Control::Sinumerik(program) => program.pass_over(),
         }
     }
 

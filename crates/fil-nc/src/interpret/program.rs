@@ -88,6 +88,12 @@ impl<'a> Program<'a> {
         self.state.forget();
     }
 
+    /// Goes on after a refused line as if it were not there; false for a line before this one.
+    pub(super) fn pass_over(&mut self) -> bool {
+        self.state.events.clear();
+        !self.order.take_refused_label()
+    }
+
     /// Runs the next line; false behind the last.
     pub(super) fn run_line(
         &mut self,

@@ -4,6 +4,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 use fil_diag::Diag;
 
+use super::report::{Report, Unverified};
 use crate::dialect::{Marks, SKIP};
 use crate::source::{Lines, Source, unreadable};
 
@@ -153,6 +154,36 @@ impl<'a> OwnBlocks<'a> {
             self.missing.insert(text);
         }
         Ok(None)
+    }
+
+    /// Lines that the interpreter can't follow are not compared where an author wrote them.
+    ///
+    /// # Errors
+    /// The first that nobody asked for.
+    pub(super) fn leave_open(
+        &self,
+        refused: &[Diag],
+        report: &mut Report,
+    ) -> Result<(), Box<Diag>> {
+        let line = |diag: &Diag| diag.spans.first().map_or(0, |span| span.line);
+        if let Some(diag) = refused.iter().find(|diag| !self.has(line(diag))) {
+            return Err(Box::new(diag.clone()));
+        }
+        let mut reasons: Vec<(&Diag, usize)> = Vec::new();
+        for diag in refused {
+            match reasons.iter_mut().find(|(first, _)| first.message == diag.message) {
+                Some((_, more)) => *more += 1,
+                None => reasons.push((diag, 0)),
+            }
+        }
+        for (diag, more) in reasons {
+            let text = diag.spans.first().map_or("", |span| span.excerpt.trim());
+            let more = if more == 0 { String::new() } else { format!(" and {more} more") };
+            let what =
+                format!("NC line {}{more}, `{text}` of an author: {}", line(diag), diag.message);
+            report.leave_open(Unverified { cl_line: None, what });
+        }
+        Ok(())
     }
 
     /// Blocks of the settings that the program does not have, sorted.

@@ -309,6 +309,11 @@ pub struct Hole {
 }
 
 impl ExpectedStep {
+    /// A text of an author that begins with the mark of blocks that may be skipped.
+    pub(super) fn has_skip_mark(&self) -> bool {
+        matches!(self, ExpectedStep::Insert { text, .. } if text.trim_start().starts_with('/'))
+    }
+
     /// A line of the tape stands in a block that may be skipped.
     pub(super) fn mark_as_skipped(&mut self) {
         if let ExpectedStep::Insert { may_be_skipped, .. } = self {

@@ -5,7 +5,7 @@ use super::delayed::DelayedMode;
 use super::modes::Expected;
 use super::settings::{Due, Settings};
 use super::verifier::Verifier;
-use crate::dialect::{Auxiliary, Function, Role};
+use crate::dialect::{Auxiliary, Family, Function, Role};
 use crate::interpret::sinumerik_words::{self, Value};
 use crate::motion::{Compensation, Speed, Spindle};
 use crate::text::{Block, Word, read_block};
@@ -30,8 +30,10 @@ impl Expected {
     /// is refused anyway.
     pub(super) fn insert(&mut self, text: &str, settings: &Settings) {
         let mut line = settings.dialect.text.marks.read(text.as_bytes()).into_owned();
-        if settings.has_edges() {
-            line = self.insert_statements(&line);
+        match settings.dialect.family {
+            Family::WordAddress => {}
+            Family::Klartext => line = functions_of_klartext(&line),
+            Family::Sinumerik => line = self.insert_statements(&line),
         }
         let Ok(block) = read_block(&line, "INSERT", 1) else { return };
         self.insert_change(&block, text, settings);
@@ -190,4 +192,16 @@ impl Expected {
         // A post does not trust it: LOADTL of the same tool changes it again.
         self.tool.loaded_offset = None;
     }
+}
+
+/// The M functions and the speed of a line of Klartext; none of one with a number of block delete,
+/// which is no line of it.
+fn functions_of_klartext(line: &[u8]) -> Vec<u8> {
+    let is_numbered = line.first() == Some(&b'/') && line.get(1).is_some_and(u8::is_ascii_digit);
+    let line = line.strip_prefix(b"/").unwrap_or(line);
+    let items = line.split(u8::is_ascii_whitespace).filter(|_| !is_numbered);
+    let is_function = |item: &&[u8]| {
+        matches!(item.first(), Some(b'M' | b'S')) && item[1..].iter().all(u8::is_ascii_digit)
+    };
+    items.filter(is_function).collect::<Vec<_>>().join(&b' ')
 }

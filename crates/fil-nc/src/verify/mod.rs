@@ -68,6 +68,7 @@ use fil_machine::{Commons, Unit};
 use crate::dialect::{Family, Habit};
 use crate::errors::NcCode;
 use crate::events::Events;
+use crate::interpret::PassedOver;
 use crate::motion::work_offset;
 use crate::source::Source;
 use between::Watch;
@@ -94,6 +95,8 @@ pub struct Check<'a> {
     pub nc_name: &'a str,
     /// What the program does.
     pub events: &'a mut dyn Events,
+    /// Its lines that the events were made without; each must be an author's.
+    pub passed: &'a PassedOver,
     /// The machine.
     pub commons: &'a Commons,
     /// What is allowed.
@@ -122,7 +125,7 @@ pub struct Allowed {
 /// Compares a program with the CL file it should come from.
 ///
 /// # Errors
-/// A program that can't be followed, a CL file that can't be read, a machine that makes no sense, a program that has
+/// A program that can't be followed, but for what an author wrote; a CL file that can't be read, a machine that makes no sense, a program that has
 /// next to nothing in common with the CL file.
 pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let settings = Settings::new(check.commons, check.allowed.tolerance)?;
@@ -148,7 +151,7 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     verifier.begin_with_blocks(check.skips_blocks);
     let of_machine = check.commons.allowed_offsets().iter().filter_map(|name| work_offset(name));
     verifier.expected.allow_offsets(check.allowed.offsets.into_iter().chain(of_machine).collect());
-    let report = verifier.all()?;
+    let report = verifier.all(check.passed)?;
     refuse_another_part(&report)?;
     Ok(report)
 }

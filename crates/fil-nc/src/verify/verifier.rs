@@ -20,6 +20,7 @@ use super::say::Shape;
 use super::settings::{Settings, Tolerances};
 use super::window::Window;
 use crate::events::Events;
+use crate::interpret::PassedOver;
 use crate::motion::{Course, DRILLED, Event, Modes, Move, Position};
 pub(super) use state::Fact;
 use state::{AxisLimits, ENDED_BY_MOTION, Facts, LastMotion, StepMemory, UserWords};
@@ -111,8 +112,11 @@ impl<'a, C: Steps> Verifier<'a, C> {
         }
     }
 
-    /// Goes through all steps.
-    pub(super) fn all(mut self) -> Result<Report, Box<Diag>> {
+    /// Goes through all steps; what was passed over must be an author's.
+    ///
+    /// # Errors
+    /// What can't be read of the program or the CL file.
+    pub(super) fn all(mut self, passed: &PassedOver) -> Result<Report, Box<Diag>> {
         let mut ended = false;
         while !self.over
             && let Some(step) = self.cl.next()
@@ -120,7 +124,9 @@ impl<'a, C: Steps> Verifier<'a, C> {
             ended = matches!(step.what, ExpectedStep::End(_));
             self.step(&step);
         }
-        let beside = self.nc.finish()?.into_watcher();
+        let finished = self.nc.finish();
+        self.own.leave_open(&passed.take(), &mut self.report)?;
+        let beside = finished?.into_watcher();
         if let Some(diag) = self.failed.or(self.cl.failed) {
             return Err(diag);
         }

@@ -91,6 +91,12 @@ impl<'a> Program<'a> {
         self.control.old = None;
     }
 
+    /// Goes on after a refused line as if it were not there.
+    pub(super) fn pass_over(&mut self) -> bool {
+        self.control.state.events.clear();
+        true
+    }
+
     /// Runs the next line; false behind the last.
     pub(super) fn run_line(
         &mut self,
@@ -184,7 +190,6 @@ impl Klartext<'_> {
                 self.functions(&line.words[2..])?;
                 self.call_cycle()
             }
-            ["L", ..] => self.straight(&line.words[1..]),
             ["LN", ..] => self.leaning_line(&line.words[1..]),
             ["PLANE", "SPATIAL", ..] => self.plane(&line.words[2..]),
             ["PLANE", "RESET", rest @ ..] => {
@@ -202,6 +207,11 @@ impl Klartext<'_> {
                 Ok(())
             }
             ["M128"] => self.state.begin_stated_tip_control(),
+            ["M140", "MB", "MAX"] | ["L", "M140", "MB", "MAX"] => {
+                self.retract();
+                Ok(())
+            }
+            ["L", ..] => self.straight(&line.words[1..]),
             ["CC", ..] => self.pole(&line.words[1..]),
             ["C" | "CR" | "CP", ..] if self.state.modes.frame.tip_control => {
                 self.state.refuse_under_tip_control("an arc")
@@ -215,6 +225,13 @@ impl Klartext<'_> {
                 Err(Fault::new(NcCode::ForeignCode, message))
             }
         }
+    }
+
+    /// Along the tool to the end of the travel, which in a tilted plane and under tool center point
+    /// control is no way of Z alone.
+    fn retract(&mut self) {
+        let leans = self.state.head.tilt.is_some() || self.state.modes.frame.tip_control;
+        self.state.go_to_machine(self.state.at, [leans, leans, true, false, false]);
     }
 
     fn end(&mut self) {

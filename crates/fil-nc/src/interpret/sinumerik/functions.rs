@@ -103,7 +103,7 @@ pub(super) fn function(code: u32) -> Option<Function> {
         94 => F::Feed(FeedMode::PerMinute),
         95 => F::Feed(FeedMode::PerTurn),
         96 => F::Surface { on: true, feed: FeedMode::PerTurn },
-        97 => F::Surface { on: false, feed: FeedMode::PerTurn },
+        97 | 973 => F::Surface { on: false, feed: FeedMode::PerTurn },
         961 => F::Surface { on: true, feed: FeedMode::PerMinute },
         971 => F::Surface { on: false, feed: FeedMode::PerMinute },
         700 => F::Units { metric: false, feeds: true },

@@ -121,6 +121,12 @@ impl<'a> Program<'a> {
         self.control.rigid_tap_lead = None;
     }
 
+    /// Goes on after a refused line as if it were not there.
+    pub(super) fn pass_over(&mut self) -> bool {
+        self.control.state.events.clear();
+        true
+    }
+
     /// Runs the next line; false behind the last.
     pub(super) fn run_line(
         &mut self,

@@ -38,6 +38,9 @@ impl Opskip {
         if self.is_on {
             steps.iter_mut().for_each(ExpectedStep::mark_as_skipped);
         }
+        if self.leaves_out {
+            steps.retain(|step| !step.has_skip_mark());
+        }
         if self.leaves_out_now() {
             let leaves_out = steps.iter().any(ExpectedStep::is_done_once);
             steps = steps.into_iter().filter_map(ExpectedStep::left_out).collect();
