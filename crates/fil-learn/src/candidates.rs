@@ -148,6 +148,8 @@ impl Alternatives {
     fn codes(&self, now: f64, facts: &Facts) -> Vec<f64> {
         let mut codes = facts.codes_missing.clone();
         if now == EMPTY {
+            // A code that is in force at the start is one that the proven programs leave out.
+            codes.extend(&facts.codes_in_excess);
             return codes;
         }
         codes.extend(&facts.codes);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use filpost::commons::EMPTY;
-use filpost::locations::{self, Location};
+use filpost::locations::{self, Location, ValueUnit};
 use filpost::{Commons, Kind, Letter, stored, user_blocks};
 
 use crate::bases::Base;
@@ -100,12 +100,15 @@ impl Machine {
     /// Short explanations are the likelier ones.
     pub fn price(&self) -> f64 {
         let options = self.base.options.len() as f64 * SETTING;
-        options + self.changes.values().map(price_of).sum::<f64>()
+        options + self.changes.iter().map(|(key, value)| price_of(*key, value)).sum::<f64>()
     }
 }
 
 /// Price of a setting.
 const SETTING: f64 = 0.3;
+
+/// Price of a code that the machine does not have: other work may need it.
+const NO_CODE: f64 = 0.6;
 
 /// Price of a letter, whose format and position are seen in each of its words.
 const LETTER: f64 = 0.15;
@@ -114,17 +117,30 @@ const LETTER: f64 = 0.15;
 const TEXT: f64 = 0.4;
 const MOVING_TEXT: f64 = 1.2;
 
-fn price_of(value: &Value) -> f64 {
+/// More for M codes and messages in a text of the start: they belong to a tool change.
+const ODD_TEXT: f64 = 0.05;
+
+fn price_of(key: Key, value: &Value) -> f64 {
     match value {
+        Value::Number(EMPTY) if is_code(key) => NO_CODE,
         Value::Number(_) => SETTING,
         Value::Address(_) => LETTER,
         Value::Texts(texts) => {
             let text = texts.join("\n");
             let words = crate::words::blocks(text.as_bytes()).into_iter().flat_map(|b| b.words);
-            let moves = |letter: u8| b"XYZABCUVW".contains(&letter);
-            words.map(|word| if moves(word.letter) { MOVING_TEXT } else { TEXT }).sum()
+            let is_start = key == Key::Texts(0);
+            let price = |letter: u8| match letter {
+                _ if b"XYZABCUVW".contains(&letter) => MOVING_TEXT,
+                0 | b'M' if is_start => TEXT + ODD_TEXT,
+                _ => TEXT,
+            };
+            words.map(|word| price(word.letter)).sum()
         }
     }
+}
+
+fn is_code(key: Key) -> bool {
+    matches!(key, Key::Setting(index) if row(index).unit == ValueUnit::Code)
 }
 
 /// The row of a setting.

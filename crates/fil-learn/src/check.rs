@@ -40,7 +40,9 @@ impl Checked {
         let mut list = |title: &str, settings: &[String]| {
             if !settings.is_empty() {
                 let _ = writeln!(text, "{title}");
-                settings.iter().for_each(|setting| text.push_str(&format!("  {setting}\n")));
+                settings.iter().for_each(|setting| {
+                    text.push_str(&format!("  {}\n", setting.replace('\n', " and ")))
+                });
             }
         };
         list("nearer to the proven program with:", &self.better);

@@ -68,11 +68,12 @@ impl Learned {
         &self.pairs
     }
 
-    /// Settings with another value that makes the same programs, as `KEY=VALUE`.
+    /// Settings with another value that makes the same programs, as `KEY=VALUE`; several that
+    /// belong together have a line each.
     pub fn undecided(&self) -> Vec<String> {
         let commons = self.machine.commons();
         let commons = commons.as_ref().unwrap_or_else(|| self.machine.base.commons());
-        self.undecided.iter().flat_map(|other| undecided::settings_of(other, commons)).collect()
+        self.undecided.iter().map(|other| undecided::text_of(other, commons)).collect()
     }
 
     /// Programs that were posted to find it.

@@ -77,6 +77,17 @@ fn marks(bench: &Bench<'_>) -> Vec<Changes> {
     if letters.iter().all(u8::is_ascii_lowercase) {
         found.push(set("tape.letter_case", 2.0));
     }
+    let begins = |mark: char| {
+        let mut words = blocks.iter().flat_map(|block| &block.words);
+        words.any(|word| word.letter == 0 && word.text.starts_with(mark))
+    };
+    for (mark, end) in [('(', 41.0), (';', EMPTY)] {
+        if begins(mark) {
+            let mut changes = set("message.out_char", f64::from(u32::from(mark)));
+            changes.extend(set("message.in_char", end));
+            found.push(changes);
+        }
+    }
     let ends: BTreeSet<Option<char>> = blocks
         .iter()
         .filter(|block| block.text.len() > 1)
@@ -100,7 +111,7 @@ fn numbers(commons: &Commons, blocks: &[&Block], inch: bool) -> Vec<Changes> {
         look_at(forms.entry(b'N').or_default(), &block.number[1..]);
     }
     let mut found = Vec::new();
-    let groups: [&[u8]; 5] = [b"", b"XYZIJKRQABCUVW", b"GM", b"THDSP", b"XYZIJKR"];
+    let groups: [&[u8]; 6] = [b"", b"XYZIJKRQABCUVW", b"GM", b"THDSP", b"XYZIJKR", b"XYZ"];
     for with_digits in [true, false] {
         for group in groups {
             let taken =

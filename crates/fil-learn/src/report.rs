@@ -54,7 +54,7 @@ impl Learned {
         if !undecided.is_empty() {
             let _ = writeln!(text, "\nno pair decides {} other values:", undecided.len());
             for setting in undecided {
-                let _ = writeln!(text, "  {setting}");
+                let _ = writeln!(text, "  {}", setting.replace('\n', " and "));
             }
         }
         for pair in self.pairs().iter().filter(|pair| !pair.left.is_empty()) {

@@ -73,7 +73,8 @@ pub(crate) fn learn(task: &Task<'_>) -> Result<Learned, Error> {
     }
     let Some(best) = best else { return Err(no_base(&bases)) };
     let best = search.rebase(search.take_back(best), &bases);
-    let undecided = undecided::find(&bench, &search.alternatives, &best);
+    let (best, others) = search.explain(best);
+    let undecided = undecided::find(&bench, &search.alternatives, &best, &others);
     Ok(Learned::new(&bench, best, undecided))
 }
 
@@ -332,17 +333,43 @@ impl Search<'_, '_> {
             if self.bench.is_stopped() || state.is_equal() {
                 break;
             }
-            let dropped = state.machine.without(key);
-            let Some(without) = self.bench.state(dropped) else { continue };
-            let mut candidates = self.candidates(&without, Reach::Wrong);
-            candidates.extend(texts::proposals(self.bench, &without));
-            let machines: Vec<Machine> =
-                candidates.iter().map(|changes| without.machine.with(changes)).collect();
-            if let Some(better) = self.best_of(&machines, &state) {
+            if let Some(better) = self.best_of(&self.exchanged(&state, key), &state) {
                 state = better;
             }
         }
         state
+    }
+
+    /// The machines of a state with another change in place of one.
+    fn exchanged(&self, state: &State, key: Key) -> Vec<Machine> {
+        let Some(without) = self.bench.state(state.machine.without(key)) else { return Vec::new() };
+        let mut candidates = self.candidates(&without, Reach::Wrong);
+        candidates.extend(texts::proposals(self.bench, &without));
+        candidates.iter().map(|changes| without.machine.with(changes)).collect()
+    }
+
+    /// The likeliest of the explanations that make the same programs, and the others: each has
+    /// another change in place of one.
+    fn explain(&self, mut state: State) -> (State, Vec<Machine>) {
+        let mut others: Vec<Machine> = Vec::new();
+        let mut keys: Vec<Key> = state.machine.changes.keys().copied().collect();
+        while let Some(key) = keys.pop() {
+            if self.bench.is_stopped() || !state.machine.changes.contains_key(&key) {
+                continue;
+            }
+            let machines = self.exchanged(&state, key);
+            let trials = self.bench.attempt_all(&machines, &state);
+            let best = better(&trials).min_by(|a, b| a.0.total_cmp(&b.0));
+            if let Some(better) = best.and_then(|(_, at)| self.bench.state(machines[at].clone())) {
+                if better.distance() < state.distance() {
+                    others.clear();
+                }
+                others.push(std::mem::replace(&mut state, better).machine);
+            }
+            let same = machines.into_iter().zip(trials).filter(|(_, trial)| *trial == Trial::Inert);
+            others.extend(same.map(|(machine, _)| machine));
+        }
+        (state, others)
     }
 
     /// Drops each change that does not help.
@@ -409,7 +436,7 @@ mod tests {
     use super::*;
     use crate::Pair;
 
-    const CL: &str = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nRAPID\nGOTO / 1, 2, 30\n\
+    const CL: &str = "UNITS / MM\nLOADTL / 1\nPPRINT / SIDE A\nSPINDL / RPM, 900, CLW\nRAPID\nGOTO / 1, 2, 30\n\
                       FEDRAT / 200, MMPM\nGOTO / 1, 2, -0.5\nGOTO / 20.5, 2, -0.5\nFINI\n";
 
     /// What is learned from the program of a post that begins from a ready post.
@@ -420,6 +447,8 @@ mod tests {
         let task = Task::new(vec![pair], Bases::Ready(vec![base.into()]));
         let learned = learn(&task).unwrap();
         assert!(learned.is_equal(), "{}", learned.report());
+        let toml = learned.machine_toml();
+        filpost::Program::builder().machine("machine.toml", &toml).build().expect("settings");
         learned
     }
 
@@ -434,5 +463,30 @@ mod tests {
     fn the_style_of_a_ready_post_is_found() {
         let learned = learned_of(filpost::Program::builder().ready("haas-mill"), "haas-mill");
         assert_eq!(learned.options(), [("style".to_string(), "production".to_string())]);
+    }
+
+    #[test]
+    fn a_code_left_out_at_the_start_is_in_force_there() {
+        let builder = filpost::Program::builder().ready("fanuc-mill").option("style", "plain");
+        let learned = learned_of(builder.set("units.in_force=21"), "fanuc-mill");
+        assert!(learned.machine_toml().contains("\nunits.in_force = 21\n"), "{}", learned.report());
+    }
+
+    #[test]
+    fn a_text_before_the_only_change_may_be_of_the_first_or_of_each() {
+        let builder = filpost::Program::builder().ready("fanuc-mill");
+        let learned = learned_of(builder.set("blocks.change_before=[\"M1\"]"), "fanuc-mill");
+        let toml = learned.machine_toml();
+        assert!(toml.contains("\nblocks.change_before = [\"M1\"]\n"), "{toml}");
+        let other = "blocks.first_change_before=[\"M1\"]\nblocks.change_before=[]";
+        assert!(learned.undecided().iter().any(|it| it == other), "{:?}", learned.undecided());
+    }
+
+    #[test]
+    fn the_marks_of_messages_are_read_off() {
+        let builder = filpost::Program::builder().ready("fanuc-mill");
+        let marks = builder.set("message.out_char=59").set("message.in_char=none");
+        let learned = learned_of(marks.set("program.name_comment=true"), "fanuc-mill");
+        assert!(learned.machine_toml().contains("message.out_char = 59"), "{}", learned.report());
     }
 }

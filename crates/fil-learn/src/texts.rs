@@ -182,21 +182,16 @@ fn collect(gaps: &Gaps, runs: &mut Vec<(usize, Vec<String>)>) {
     }
     let count = gaps.changes.len();
     for (at, (first, done)) in gaps.changes.iter().enumerate() {
-        let (before, after) = (&gaps.before[*first], &gaps.before[(done + 1).min(last)]);
-        put(BEFORE, before);
-        put(AFTER, after);
+        let mut lists = vec![BEFORE, AFTER];
         if at == 0 {
-            put(FIRST_BEFORE, before);
-            put(FIRST_AFTER, after);
+            lists.extend([FIRST_BEFORE, FIRST_AFTER]);
         }
         if at + 1 == count && count > 1 {
-            put(LAST_BEFORE, before);
-            put(LAST_AFTER, after);
+            lists.extend([LAST_BEFORE, LAST_AFTER]);
         }
-        // A change whose own block differs has its gaps within.
-        for run in &gaps.before[*first..=(*done).min(last)] {
-            put(BEFORE, run);
-            put(AFTER, run);
+        // A change whose own block differs, or that writes the head, has its gaps within.
+        for run in &gaps.before[*first..=(*done + 1).min(last)] {
+            lists.iter().for_each(|list| put(*list, run));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Other values of settings with which every pair comes out the same: what no pair decides.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use filpost::commons::EMPTY;
 use filpost::locations::ValueUnit;
@@ -13,10 +13,16 @@ use crate::readings;
 use crate::trial::{Bench, State, Trial};
 
 /// Values of one setting that are kept.
-const MOST_VALUES: usize = 3;
+const MOST_VALUES: usize = 6;
 
-/// Settings with other values that make the same programs, in the order of the table.
-pub(crate) fn find(bench: &Bench<'_>, alternatives: &Alternatives, state: &State) -> Vec<Changes> {
+/// Settings with other values that make the same programs, in the order of the table; then what
+/// changes a machine into one of the others, which make the same programs too.
+pub(crate) fn find(
+    bench: &Bench<'_>,
+    alternatives: &Alternatives,
+    state: &State,
+    others: &[Machine],
+) -> Vec<Changes> {
     let Some(commons) = state.machine.commons() else { return Vec::new() };
     let mut candidates: Vec<Changes> = Vec::new();
     for index in alternatives.rows() {
@@ -29,7 +35,6 @@ pub(crate) fn find(bench: &Bench<'_>, alternatives: &Alternatives, state: &State
             }
             // Another number is as good as the one that a post has.
             ValueUnit::Code if now != EMPTY => values.push(OTHER_CODE),
-            ValueUnit::Code => {}
             _ => values.extend(alternatives.of_posts(*index)),
         }
         values.retain(|value| {
@@ -59,31 +64,44 @@ pub(crate) fn find(bench: &Bench<'_>, alternatives: &Alternatives, state: &State
     let trials = bench.in_threads(machines.len(), Trial::Worse, |at| {
         machines[at].as_ref().map_or(Trial::Inert, |machine| bench.attempt(machine, state))
     });
-    let mut kept: BTreeMap<Key, usize> = BTreeMap::new();
     let inert = candidates.into_iter().zip(trials).filter(|(_, trial)| *trial == Trial::Inert);
-    inert
-        .map(|(changes, _)| changes)
-        .filter(|changes| {
-            let count = kept.entry(changes[0].0).or_default();
-            *count += 1;
-            *count <= MOST_VALUES
-        })
+    let inert = inert.map(|(changes, _)| changes);
+    let mut kept: BTreeMap<Vec<Key>, usize> = BTreeMap::new();
+    let few = |changes: &Changes| {
+        let keys = changes.iter().map(|(key, _)| *key).collect();
+        let count = kept.entry(keys).or_default();
+        *count += 1;
+        *count <= MOST_VALUES
+    };
+    let into_others = others.iter().map(|other| difference(&state.machine, other));
+    inert.chain(into_others.filter(|changes| !changes.is_empty())).filter(few).collect()
+}
+
+/// What changes a machine into another one over the same base.
+fn difference(machine: &Machine, other: &Machine) -> Changes {
+    let keys: BTreeSet<Key> = machine.changes.keys().chain(other.changes.keys()).copied().collect();
+    let to = |key: Key| (key, change::read_changed(other, key));
+    keys.into_iter()
+        .map(to)
+        .filter(|(key, to)| change::read_changed(machine, *key) != *to)
         .collect()
 }
 
-/// A change over settings as `--set` takes it.
-pub(crate) fn settings_of(changes: &Changes, commons: &Commons) -> Vec<String> {
+/// Changes over settings as `--set` takes them; several are lines of one text.
+pub(crate) fn text_of(changes: &Changes, commons: &Commons) -> String {
     let mut settings = Vec::new();
     for (key, value) in changes {
         let name = change::name(*key);
         match value {
             Value::Address(to) => {
                 let Value::Address(now) = change::read(commons, *key) else { continue };
-                if to.format != now.format {
-                    settings.push(format!("{name}.format={}", to.format));
-                }
-                if to.spec != now.spec {
-                    settings.push(format!("{name}.spec={}", to.spec));
+                let numbers = [
+                    ("slot", now.slot, to.slot),
+                    ("format", now.format, to.format),
+                    ("spec", now.spec, to.spec),
+                ];
+                for (cell, _, to) in numbers.iter().filter(|(_, now, to)| now != to) {
+                    settings.push(format!("{name}.{cell}={to}"));
                 }
             }
             Value::Number(_) | Value::Texts(_) => {
@@ -91,5 +109,5 @@ pub(crate) fn settings_of(changes: &Changes, commons: &Commons) -> Vec<String> {
             }
         }
     }
-    settings
+    settings.join("\n")
 }

@@ -43,7 +43,8 @@ pub(crate) fn warnings(
     let found = std::mem::take(&mut search.found).into_iter();
     let warning = |(setting, line): (String, u32)| {
         let statement = text.lines().nth(line.saturating_sub(1) as usize).unwrap_or_default();
-        let message = format!("with {setting} this would be another program");
+        let message =
+            format!("with {} this would be another program", setting.replace('\n', " and "));
         RunCode::Undecided.diag(message).at(TextSpan::line(name, line, statement))
     };
     found.map(warning).collect()
@@ -53,15 +54,20 @@ pub(crate) fn warnings(
 fn layers(undecided: &[String]) -> Vec<Vec<&str>> {
     let mut layers: Vec<Vec<&str>> = Vec::new();
     for setting in undecided {
-        let key = |setting: &str| setting.split('=').next().unwrap_or_default().trim().to_string();
-        let own = key(setting);
-        let free = layers.iter_mut().find(|layer| layer.iter().all(|other| key(other) != own));
+        let own: Vec<&str> = keys(setting).collect();
+        let is_free = |other: &&str| keys(other).all(|key| !own.contains(&key));
+        let free = layers.iter_mut().find(|layer| layer.iter().all(is_free));
         match free {
             Some(layer) => layer.push(setting),
             None => layers.push(vec![setting]),
         }
     }
     layers
+}
+
+/// The keys of a setting, or of several on lines of their own.
+fn keys(setting: &str) -> impl Iterator<Item = &str> {
+    setting.lines().map(|line| line.split('=').next().unwrap_or_default().trim())
 }
 
 impl Search<'_> {

@@ -13,6 +13,7 @@ use fil_learn::{Bases, Pair, Task};
 use filpost::Program;
 
 mod groups;
+mod shown;
 
 /// Judge `filpost learn` with hidden posts
 #[derive(clap::Args)]
@@ -86,6 +87,12 @@ struct Hidden {
     held_out: Vec<(usize, Vec<u8>)>,
     /// Each group changes a program that is learned from.
     is_shown: bool,
+    /// For each program that is held out: the groups that are shown make it.
+    can_be_known: Vec<bool>,
+    /// The parts that are learned from at another place: their CL files and programs.
+    moved: Vec<(String, Vec<u8>)>,
+    /// Other posts of this kind that make the same learned programs.
+    open: Vec<Program>,
 }
 
 /// What became of all hidden posts.
@@ -99,6 +106,13 @@ struct Totals {
     warned: usize,
     quietly_wrong: usize,
     warned_equal: usize,
+    /// Of them those that nothing open would change.
+    needless: usize,
+    /// Learned parts at another place: equal and without a warning, equal and warned of, wrong
+    /// and quiet, all.
+    moved: [usize; 4],
+    /// Programs that the shown groups make: right ones, and all.
+    known: (usize, usize),
     shown: (usize, usize),
     unproven: usize,
     times: Vec<Duration>,
@@ -198,16 +212,20 @@ fn hide(random: &mut Random, parts: &[Part], options: &[String]) -> Hidden {
             (0..count).map(|_| made.swap_remove(random.below(made.len()))).collect()
         };
         let (learned, held_out) = (draw(LEARNED), draw(HELD_OUT));
-        let shows = |at: usize| {
-            let rest = groups.iter().enumerate().filter(|(other, _)| *other != at);
-            let rest: Vec<String> = rest.flat_map(|(_, group)| group.clone()).collect();
-            let Some(without) = program(base, options, &rest) else { return true };
-            learned.iter().any(|(part, nc)| {
-                post(&without, &parts[*part].cl).is_none_or(|(other, _)| other != *nc)
-            })
-        };
-        let is_shown = (0..groups.len()).all(shows);
-        return Hidden { base, settings, learned, held_out, is_shown };
+        let (shown, is_shown) = shown::shown(base, options, &groups, &learned, parts);
+        let of_shown = program(base, options, &shown);
+        let can_be_known = held_out.iter().map(|(part, nc)| {
+            of_shown.as_ref().is_some_and(|program| !shown::changes(program, &parts[*part], nc))
+        });
+        let can_be_known = can_be_known.collect();
+        let moved = learned.iter().filter_map(|(part, _)| {
+            let cl = shown::moved(&parts[*part].cl);
+            let (nc, _) = post(&post_of_all, &cl)?;
+            Some((cl, nc))
+        });
+        let moved = moved.collect();
+        let open = shown::open_variants(base, options, &settings, &learned, parts);
+        return Hidden { base, settings, learned, held_out, is_shown, can_be_known, moved, open };
     }
 }
 
@@ -239,8 +257,9 @@ fn judge(args: &Args, number: usize, hidden: &Hidden, parts: &[Part], totals: &m
     let toml = learned.machine_toml();
     let built = Program::builder().machine("machine.toml", &toml).build();
     let mut equal = 0;
-    for (part, nc) in &hidden.held_out {
+    for ((part, nc), is_known) in hidden.held_out.iter().zip(&hidden.can_be_known) {
         totals.held_out.1 += 1;
+        totals.known.1 += usize::from(*is_known);
         let made = built.as_ref().ok().and_then(|program| post(program, &parts[*part].cl));
         let Some((ours, warnings)) = made else {
             totals.refused += 1;
@@ -256,15 +275,33 @@ fn judge(args: &Args, number: usize, hidden: &Hidden, parts: &[Part], totals: &m
         totals.warned += usize::from(!alike && is_warned);
         totals.quietly_wrong += usize::from(!alike && !is_warned);
         totals.warned_equal += usize::from(is_equal && is_warned);
+        totals.known.0 += usize::from(is_equal && *is_known);
+        let is_open = || hidden.open.iter().any(|open| shown::changes(open, &parts[*part], nc));
+        let is_needless = is_equal && is_warned && !is_open();
+        totals.needless += usize::from(is_needless);
         if args.verbose && is_equal {
-            undecided.iter().for_each(|said| println!("  equal {} {said}", parts[*part].name));
+            undecided.iter().for_each(|said| {
+                println!("  equal {} (needless: {is_needless}) {said}", parts[*part].name)
+            });
         }
         if args.verbose && !is_equal {
-            println!("  held out {} (warned: {is_warned})", parts[*part].name);
+            println!(
+                "  held out {} (warned: {is_warned}, can be known: {is_known})",
+                parts[*part].name
+            );
             tell_difference(nc, &ours);
         }
     }
     totals.held_out.0 += equal;
+    for (cl, nc) in &hidden.moved {
+        let made = built.as_ref().ok().and_then(|program| post(program, cl));
+        let (is_equal, is_warned) = made.map_or((false, true), |(ours, warnings)| {
+            (ours == *nc, warnings.iter().any(|said| said.starts_with("W0758")))
+        });
+        let at = [(true, false), (true, true), (false, false)];
+        let at = at.iter().position(|kind| *kind == (is_equal, is_warned));
+        at.into_iter().chain([3]).for_each(|at| totals.moved[at] += 1);
+    }
     let all = equal == hidden.held_out.len();
     totals.shown.0 += usize::from(hidden.is_shown && all);
     totals.shown.1 += usize::from(hidden.is_shown);
@@ -370,13 +407,24 @@ impl Totals {
             self.shown.0, self.shown.1
         );
         println!(
+            "held out, of those that the shown groups make: {} of {}",
+            self.known.0, self.known.1
+        );
+        println!(
             "held out and refused: {}, wrong and warned of: {}, quietly wrong: {}",
             self.refused, self.warned, self.quietly_wrong
         );
         println!(
-            "warned of and equal: {} ({:.0} %)",
+            "warned of and equal: {} ({:.0} %), of them needless: {} ({:.0} %)",
             self.warned_equal,
-            percent(self.warned_equal, held)
+            percent(self.warned_equal, held),
+            self.needless,
+            percent(self.needless, held)
+        );
+        let [quiet, warned, wrong, all] = self.moved;
+        println!(
+            "learned parts at another place: {quiet} of {all} equal without a warning, {warned} equal and warned of ({:.0} %), {wrong} quietly wrong",
+            percent(warned, quiet + warned),
         );
         println!("settings without a proof: {}", self.unproven);
         let median = self.times.get(self.times.len() / 2).copied().unwrap_or_default();

@@ -5,8 +5,16 @@ use super::Random;
 /// A kind, which one post has once, and its settings.
 pub fn group(random: &mut Random) -> (usize, Vec<String>) {
     let kind = random.below(KINDS.len());
-    let settings = random.one(KINDS[kind]);
-    (kind, settings.split(';').map(|setting| setting.trim().to_string()).collect())
+    (kind, settings(random.one::<&str>(KINDS[kind])))
+}
+
+/// All variants of all kinds.
+pub fn all() -> impl Iterator<Item = Vec<String>> {
+    KINDS.iter().flat_map(|variants| variants.iter()).map(|variant| settings(variant))
+}
+
+fn settings(variant: &str) -> Vec<String> {
+    variant.split(';').map(|setting| setting.trim().to_string()).collect()
 }
 
 /// Kinds of changes, each with its variants; settings are divided by semicolons.

@@ -43,6 +43,9 @@ const MOST_OFFSETS: usize = 1000;
 /// Most settings that a machine lists as undecided.
 const MOST_UNDECIDED: usize = 10_000;
 
+/// Most characters of settings that are undecided together.
+const LONGEST_UNDECIDED: usize = 10_000;
+
 /// What a `machine.toml` may say about itself without it being a setting.
 const ABOUT: &[&str] = &["name", "description", "origin"];
 
@@ -343,7 +346,8 @@ impl<'a> TomlReader<'a> {
             return self.simulate(commons, simulate, key, value);
         }
         if name == "learned.undecided" {
-            commons.set_undecided(self.texts(value, MOST_UNDECIDED)?);
+            let undecided = self.texts_up_to(value, MOST_UNDECIDED, LONGEST_UNDECIDED)?;
+            commons.set_undecided(undecided);
             return Ok(());
         }
         if name == "verify.allowed_offsets" {

@@ -64,7 +64,16 @@ impl TomlReader<'_> {
 
     /// A list of texts: `blocks.start`, `words.without_effect`, `verify.allowed_offsets`.
     pub(super) fn texts(&self, value: &Spanned<DeValue>, most: usize) -> Result<Vec<String>> {
-        let longest = usize::from(BLOCK_INTEGERS) * 2;
+        self.texts_up_to(value, most, usize::from(BLOCK_INTEGERS) * 2)
+    }
+
+    /// The same with texts of at most `longest` characters.
+    pub(super) fn texts_up_to(
+        &self,
+        value: &Spanned<DeValue>,
+        most: usize,
+        longest: usize,
+    ) -> Result<Vec<String>> {
         let wrong = |span: Range<usize>, message: String| {
             self.at(span, Diag::new(MachineCode::SettingValue, message))
         };
