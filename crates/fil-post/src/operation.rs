@@ -288,6 +288,8 @@ pub enum NextTools {
     Some {
         /// The first that takes another tool, if there is one.
         other: Option<i64>,
+        /// The operator makes that change by hand, so nothing prepares it.
+        by_hand: bool,
     },
 }
 
@@ -300,6 +302,8 @@ pub struct ToolChange {
     pub offset: i64,
     /// The record gives the offset.
     pub offset_given: bool,
+    /// The operator changes it by hand, while the program stops.
+    pub by_hand: bool,
     /// The tool changes behind this one.
     pub next: NextTools,
     /// The rev/min that SPINDL asks for behind it, where it is known.

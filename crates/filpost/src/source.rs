@@ -416,11 +416,15 @@ impl ToolsSeen {
         }
         self.any = true;
         let tool = tool_of(record);
-        (tool != self.tool).then_some(NextTools::Some { other: tool })
+        let by_hand = record.has(words::MANUAL);
+        (tool != self.tool).then_some(NextTools::Some { other: tool, by_hand })
     }
 
     fn at_the_end(&self) -> NextTools {
-        if self.any { NextTools::Some { other: None } } else { NextTools::None }
+        match self.any {
+            true => NextTools::Some { other: None, by_hand: false },
+            false => NextTools::None,
+        }
     }
 }
 

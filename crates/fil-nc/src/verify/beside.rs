@@ -115,7 +115,10 @@ impl<C: Steps> Verifier<'_, C> {
                 | ExpectedStep::Coolant(CoolantKind::Off)
         );
         let Some(cl_line) = self.memory.held_stop.take_if(|_| !waits) else { return };
-        let stops_there = matches!(next, ExpectedStep::Tool { .. }) && self.blocks.changes > 0;
+        let stops_there = match next {
+            ExpectedStep::Tool { by_hand, .. } => *by_hand || self.blocks.changes > 0,
+            _ => false,
+        };
         if !stops_there {
             self.ask_auxiliary(cl_line, self.settings.stop_at_change());
         }
@@ -227,7 +230,9 @@ impl<C: Steps> Verifier<'_, C> {
 
     /// Coolant and spindle off and the way home, where the settings end programs so.
     fn go_home_at_end(&mut self, cl_line: u32) {
-        self.take_blocks(&self.settings.blocks_of_switching_off());
+        if self.settings.switches_off_at_change() {
+            self.take_blocks(&self.settings.blocks_of_switching_off());
+        }
         let to = self.settings.home_at_end(self.limits.metric);
         if to != [None; 3] {
             self.is_at_machine(cl_line, to);

@@ -79,6 +79,8 @@ pub enum ExpectedStep {
         number: u32,
         /// Number of its length offset, where the record gives one.
         offset: Option<u32>,
+        /// The operator makes it while the program stops.
+        by_hand: bool,
     },
     /// A change to a tool that was left out with the blocks that may be skipped: what moves behind
     /// them needs that tool all the same.
@@ -324,7 +326,7 @@ impl ExpectedStep {
     /// What is left of a step that is left out: what holds on behind it.
     pub(super) fn left_out(self) -> Option<ExpectedStep> {
         match self {
-            ExpectedStep::Tool { number, offset } => {
+            ExpectedStep::Tool { number, offset, .. } => {
                 Some(ExpectedStep::ToolLeftOut { number, offset })
             }
             done if done.is_done_once() => None,

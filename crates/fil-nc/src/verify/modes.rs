@@ -432,6 +432,11 @@ impl Expected {
         self.tool_moves(tool, offset, settings);
     }
 
+    /// The operator has changed the tool, which no word of the program names.
+    pub(super) fn take_tool_by_hand(&mut self) {
+        self.tool.number = None;
+    }
+
     /// A change to a tool was left out, which moves behind it all the same.
     pub(super) fn leave_tool_out(&mut self, tool: u32, offset: u32, settings: &Settings) {
         self.tool_moves(tool, offset, settings);

@@ -8,10 +8,12 @@ use super::verifier::{Fact, LOOK_AHEAD, Verifier};
 use crate::motion::{Course, Event, Position};
 
 impl<C: Steps> Verifier<'_, C> {
-    pub(super) fn tool(&mut self, cl_line: u32, number: u32, offset: u32) {
+    pub(super) fn tool(&mut self, cl_line: u32, number: u32, offset: u32, by_hand: bool) {
         self.memory.initial = None;
         // A text may have changed the tool.
         match self.settings.names_machine_positions() {
+            // No event of the program parts what stands still with one tool from what does with the next.
+            _ if by_hand => self.pass_own(),
             true => self.pass_still(cl_line),
             false => {
                 self.pass(cl_line);
@@ -21,14 +23,26 @@ impl<C: Steps> Verifier<'_, C> {
         let same = self.expected.tool() == Some(number)
             && self.expected.loaded_offset() == Some(offset)
             && (self.settings.tool_is_modal() || self.next_tool() != Some(number));
-        let changes = !same && self.settings.calls_tools();
+        let is_called = match by_hand {
+            true => self.settings.calls_lengths_by_tool(),
+            false => self.settings.calls_tools(),
+        };
+        let changes = !same && is_called;
+        if !same && by_hand {
+            self.stop_for_operator(cl_line);
+        }
         if !changes {
-            if !same {
+            if !same && !by_hand {
                 // The operator changes the tool; the machine goes there all the same.
                 self.go_to_change_position(cl_line);
             }
             self.expected.change_tool(number, offset, self.settings);
-            return self.expected.take_first_offset(self.settings);
+            self.expected.take_first_offset(self.settings);
+            if !same && by_hand {
+                self.expected.take_tool_by_hand();
+                self.expected.resume_coolant(self.settings);
+            }
+            return;
         }
         if self.leaves_operation_out(cl_line, number) {
             return;
@@ -36,12 +50,12 @@ impl<C: Steps> Verifier<'_, C> {
         self.await_blocks_before_change();
         let is_first = self.blocks.changes == 0;
         self.blocks.changes += 1;
-        if !is_first {
+        if !is_first && self.settings.switches_off_at_change() {
             self.take_blocks(&self.settings.blocks_of_switching_off());
         }
         self.go_to_change_position(cl_line);
         self.take_awaited_blocks();
-        if !is_first {
+        if !is_first && !by_hand {
             self.ask_auxiliary(cl_line, self.settings.stop_at_change());
         }
         let is_of_later = self.is_of_a_later_change(number);
@@ -83,11 +97,27 @@ impl<C: Steps> Verifier<'_, C> {
         }
         self.expected.change_tool(number, offset, self.settings);
         self.expected.take_first_offset(self.settings);
-        if self.settings.switches_off_at_change() {
+        if by_hand || self.settings.switches_off_at_change() {
             self.expected.resume_coolant(self.settings);
         }
         self.go_to_offset_level(cl_line);
         self.take_blocks_after_change();
+    }
+
+    /// Before the operator changes a tool: coolant and spindle off, the way to the change position, and
+    /// a stop.
+    fn stop_for_operator(&mut self, cl_line: u32) {
+        self.take_blocks(&self.settings.blocks_of_switching_off());
+        if self.settings.change_position(self.limits.metric) != [None; 5] {
+            self.go_to_change_position(cl_line);
+        }
+        // Motions that stand still may belong to either tool.
+        let is_still = |event: &Event| matches!(event, Event::Move(found) if self.is_still(found));
+        let next = self.nc.from(self.next).find(|event| !is_still(event));
+        let lines = [self.last_line(), next.map_or(u32::MAX, |event| event.line())];
+        if let Some(code) = self.settings.stop_code(false) {
+            self.auxiliaries.ask(code, cl_line, lines);
+        }
     }
 
     /// The tool of the next change, if it comes soon.

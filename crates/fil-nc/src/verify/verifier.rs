@@ -190,9 +190,10 @@ impl<'a, C: Steps> Verifier<'a, C> {
             ExpectedStep::ThreadBegins => self.memory.thread_turns = None,
             ExpectedStep::Straight(within) => self.watch.ask(*within),
             ExpectedStep::LeftOut => self.watch.begin_elsewhere(self.settings.divides_within()),
-            ExpectedStep::Tool { number, offset } => {
+            ExpectedStep::Tool { number, offset, by_hand } => {
                 self.facts.set(Fact::FreshHeight, self.settings.restates_after_change());
-                self.tool(step.line, *number, self.settings.tool_offset(*number, *offset));
+                let offset = self.settings.tool_offset(*number, *offset);
+                self.tool(step.line, *number, offset, *by_hand);
                 self.cutter = self.cutter.filter(|_| self.facts.has(Fact::FreshCutter));
                 self.facts.set(Fact::FreshTool, true);
                 self.memory.machine_at = [None; 5];

@@ -62,15 +62,21 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     let is_first = control.tools.changes == 0;
     control.tools.changes += 1;
     control.tools.prepared = None;
-    control.tools.first.get_or_insert(wanted.tool);
+    if !wanted.by_hand {
+        control.tools.first.get_or_insert(wanted.tool);
+    }
     let cause = wanted.causes[0].whole();
     write_blocks(control, around[0])?;
     control.because(cause, |control| {
-        if !is_first {
-            way_home::switch_off_for_change(control)?;
+        if wanted.by_hand || !is_first {
+            way_home::switch_off_for_change(control, wanted.by_hand)?;
         }
         go_to_change_position(control, cause)?;
-        if is_first { Ok(()) } else { way_home::stop_at_change(control) }
+        match (wanted.by_hand, is_first) {
+            (true, _) => way_home::stop_for_operator(control, wanted.tool),
+            (false, true) => Ok(()),
+            (false, false) => way_home::stop_at_change(control),
+        }
     })?;
     way_home::write_held(control)?;
     control.tip.is_away = true;
@@ -88,9 +94,9 @@ fn prepare_next(control: &mut Control, wanted: &ToolChange) -> Result<()> {
         .first
         .filter(|first| *first != wanted.tool && control.commons.read(loc::TOOL_PRESELECT_FIRST));
     let next = match wanted.next {
-        NextTools::Some { other: Some(next) } => Some(next),
-        NextTools::Some { other: None } | NextTools::None => first,
-        NextTools::Unknown => None,
+        NextTools::Some { by_hand: true, .. } | NextTools::Unknown => None,
+        NextTools::Some { other: Some(next), .. } => Some(next),
+        NextTools::Some { other: None, .. } | NextTools::None => first,
     };
     let Some(next) = next.filter(|_| control.commons.read(loc::TOOL_PRESELECT)) else {
         return Ok(());
@@ -131,7 +137,7 @@ fn around(control: &mut Control, wanted: &ToolChange) -> [UserBlocks; 2] {
     }
     let is_last = match wanted.next {
         NextTools::None => true,
-        NextTools::Some { other } => control.commons.read(loc::TOOL_MODAL) && other.is_none(),
+        NextTools::Some { other, .. } => control.commons.read(loc::TOOL_MODAL) && other.is_none(),
         NextTools::Unknown => false,
     };
     let own = match (control.tools.changes, is_last) {

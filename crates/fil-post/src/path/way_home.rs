@@ -16,14 +16,16 @@ use crate::operation::motion::{Motion, RapidCode};
 use crate::operation::{Coolant, Operation, Spindle, Stop};
 use crate::post::Post;
 
-/// Ends coolant and spindle before a tool change, where the machine does so. The coolant comes on
-/// again at the next point.
+/// Ends coolant and spindle before a tool change, where the machine does so or the operator makes it.
+/// The coolant comes on again at the next point.
 ///
 /// # Errors
 /// As [`switch_off`].
-pub(super) fn switch_off_for_change(control: &mut Control) -> Result<()> {
+pub(super) fn switch_off_for_change(control: &mut Control, by_hand: bool) -> Result<()> {
     let coolant = control.coolant;
-    switch_off(control)?;
+    if by_hand || control.commons.read(loc::HOME_SWITCHES_OFF) {
+        switch_off(control)?;
+    }
     if control.coolant.is_none() {
         control.tools.coolant = coolant;
     }
@@ -40,14 +42,11 @@ pub(crate) fn resume_coolant(control: &mut Control, at: CodeAt) -> Result<()> {
     coolant::switch_on(control, at)
 }
 
-/// Ends coolant and spindle where they are on and the machine does so before it goes home.
+/// Ends coolant and spindle where they are on.
 ///
 /// # Errors
 /// The machine has no codes for it.
 fn switch_off(control: &mut Control) -> Result<()> {
-    if !control.commons.read(loc::HOME_SWITCHES_OFF) {
-        return Ok(());
-    }
     if control.coolant.is_some() {
         control.family().write(control, Operation::Coolant(Coolant::Off))?;
     }
@@ -75,6 +74,21 @@ pub(super) fn stop_at_change(control: &mut Control) -> Result<()> {
     let Some(stop) = stops_at_change(control) else { return Ok(()) };
     control.tools.held.retain(|(held, _)| *held != Held::Stop(stop));
     control.family().write(control, Operation::Stop(stop))
+}
+
+/// Stops for the operator to change the tool by hand, with a message that names it; a stop that waits
+/// for the change is this one.
+///
+/// # Errors
+/// The machine has no code for the stop.
+pub(super) fn stop_for_operator(control: &mut Control, tool: i64) -> Result<()> {
+    control.tools.held.retain(|(held, _)| !matches!(held, Held::Stop(_)));
+    write_held(control)?;
+    if control.commons.read(loc::MESSAGE_TO_TAPE) {
+        let message = Operation::Message(format!("LOAD TOOL {tool}"));
+        control.family().write(control, message)?;
+    }
+    control.family().write(control, Operation::Stop(Stop::Always))
 }
 
 /// Writes the messages and stops that have waited for a tool change, or for what has come instead of it.
@@ -172,7 +186,9 @@ pub(super) fn before_end(post: &mut Post) -> Result<()> {
     cycle::cancel(control)?;
     control.skip_blocks(false)?;
     control.flush_waiting()?;
-    switch_off(control)?;
+    if control.commons.read(loc::HOME_SWITCHES_OFF) {
+        switch_off(control)?;
+    }
     let home = loc::HOME.map(|at| control.commons.dbl_opt(at));
     let to = match block {
         ProgramEndBlock::None => return Ok(()),

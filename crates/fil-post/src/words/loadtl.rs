@@ -1,4 +1,4 @@
-//! LOADTL/n\[,LENGTH,l]\[,OSETNO,o], LOAD/TOOL,n\[,ADJUST,o], TURRET/n: tool change;
+//! LOADTL/n\[,LENGTH,l]\[,OSETNO,o]\[,AUTO|MANUAL], LOAD/TOOL,n\[,ADJUST,o], TURRET/n: tool change;
 //! LOADTL/n,ADJUST,c,TOOL with the number of one of the tool's own compensations;
 //! SELCTL/n and SELECT/TOOL,n: the next tool.
 
@@ -30,6 +30,9 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         None => items.couplet(w::ADJUST)?.filter(|_| !of_tool || counts_compensations),
     };
     let offset = offset.map(|offset| (offset, items.last_word()));
+    let by_hand = items.flag(w::MANUAL);
+    // The usual change, as without the word.
+    items.flag(w::AUTO);
     gauge_length(post, items)?;
     let tool = tool_number(items)?;
     post.due_to(items);
@@ -54,7 +57,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let causes = [cause, offset_cause];
     let next = std::mem::take(&mut post.path.ahead.tools);
     let speed = post.path.ahead.speed.take();
-    let change = ToolChange { tool, offset, offset_given, next, speed, causes };
+    let change = ToolChange { tool, offset, offset_given, by_hand, next, speed, causes };
     carry_out(post, Operation::ToolChange(change))
 }
 

@@ -399,6 +399,7 @@ impl State {
                 Some(offset) => Some(whole(offset)?),
                 None => None,
             },
+            by_hand: record.has(w::MANUAL),
         }])
     }
 }

@@ -149,11 +149,8 @@ impl Settings<'_> {
         self.commons.read(loc::HOME_SWITCHES_OFF)
     }
 
-    /// The functions that end coolant and spindle before the way home, as blocks.
+    /// The functions that end coolant and spindle, as blocks.
     pub fn blocks_of_switching_off(&self) -> Vec<String> {
-        if !self.switches_off_at_change() {
-            return Vec::new();
-        }
         let codes = [
             loc::COOLANT_OFF_CODE,
             loc::COOLANT_MIST_OFF_CODE,

@@ -46,6 +46,13 @@ impl Settings<'_> {
         self.commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode
     }
 
+    /// True when the words that name a tool activate its length: the program needs them behind a
+    /// change by hand too.
+    pub fn calls_lengths_by_tool(&self) -> bool {
+        self.calls_tools_with_offset()
+            || self.commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress
+    }
+
     /// True when a tool change is followed by a length offset of its own.
     pub fn calls_offsets(&self) -> bool {
         self.calls_named_offsets() && self.commons.read(loc::TOOL_LENGTH_FROM_TOOL)

@@ -57,7 +57,9 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
         tool_and_offset(control, wanted)?;
         restate(control);
     } else {
-        tool_blocks(control, wanted.tool)?;
+        if !wanted.by_hand {
+            tool_blocks(control, wanted.tool)?;
+        }
         restate(control);
         control.because(wanted.causes[1], |control| length_offset(control, wanted, before))?;
     }
@@ -134,7 +136,7 @@ fn without_code(control: &mut Control, tool: i64) -> Result<()> {
     {
         return PostCode::NoCode.err(format!(
             "tool {tool} after tool {before}, and the machine has no tool change: post one tool a \
-             file, or take LOADTL with a FIL section that stops the program"
+             file, or stop for a change by hand (LOADTL/{tool},MANUAL)"
         ));
     }
     // T of a SINUMERIK without a code changes the tool at once.
