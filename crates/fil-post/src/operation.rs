@@ -300,8 +300,8 @@ pub struct ToolChange {
     pub tool: i64,
     /// Number of its offset: that of the record, else that of the tool.
     pub offset: i64,
-    /// The record gives the offset.
-    pub offset_given: bool,
+    /// What the number of the offset is taken from.
+    pub offset_from: OffsetFrom,
     /// The operator changes it by hand, while the program stops.
     pub by_hand: bool,
     /// The tool changes behind this one.
@@ -310,6 +310,24 @@ pub struct ToolChange {
     pub speed: Option<f64>,
     /// The record at the word of the tool, and at that of the offset.
     pub causes: [Cause; 2],
+}
+
+impl ToolChange {
+    /// The record gives the number of the offset.
+    pub fn is_offset_given(&self) -> bool {
+        self.offset_from != OffsetFrom::Tool
+    }
+}
+
+/// What the number of an offset is taken from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OffsetFrom {
+    /// The number of the tool: the record gives none.
+    Tool,
+    /// The record gives an offset of the machine.
+    Record,
+    /// The record gives one of the tool's own compensations.
+    Compensation,
 }
 
 /// Why the machine waits or ends.

@@ -18,7 +18,7 @@ use crate::errors::ClCode;
 use crate::forms::cycle::Cycle;
 use crate::forms::table::Table;
 use crate::layout::ShapeError;
-use crate::reader::ToldSweep;
+use crate::reader::{ArcPoints, ToldSweep};
 use crate::record::{Record, Word};
 use crate::vocabulary::{Vocabulary, WordId};
 
@@ -113,6 +113,8 @@ pub(crate) struct FormState {
     pub(crate) sweep: Option<f64>,
     /// A CIRCLE that tells how far it turns, until its end.
     pub(crate) told_sweep: Option<ToldSweep>,
+    /// A CIRCLE of Creo's and the points behind it, as long as they lie on it.
+    pub(crate) arc_points: Option<ArcPoints>,
 }
 
 impl FormState {
@@ -122,6 +124,7 @@ impl FormState {
         self.expects.is_some()
             || self.table.is_in_play()
             || self.told_sweep.is_some()
+            || self.arc_points.is_some()
             || self.spindle_along.is_some()
     }
 }

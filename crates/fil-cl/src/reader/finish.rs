@@ -52,6 +52,7 @@ impl Reader<'_> {
             }
             words::GOTO => {
                 self.bring_back(record)?;
+                self.keep_end_of_arc(record)?;
                 self.split_points(record)?;
             }
             words::FROM => {
@@ -65,7 +66,9 @@ impl Reader<'_> {
         if record.kind == kind::MOTION {
             self.check_sweep(record)?;
         }
+        self.watch_arc_points(record)?;
         match record.major {
+            words::CIRCLE => self.note_circle(record),
             words::MULTAX | words::TLAXIS => self.set_mode(record),
             words::GOTO | words::FROM => self.keep_axis(record),
             // Where these lead is a matter of the post.

@@ -6,6 +6,7 @@
 
 mod ahead;
 mod arc;
+mod arc_points;
 mod complete;
 mod finish;
 mod form;
@@ -39,6 +40,7 @@ use crate::record::{Record, Word, kind};
 use crate::vocabulary::Vocabulary;
 use crate::words;
 
+pub(crate) use arc_points::ArcPoints;
 pub(crate) use items::reads_as_text;
 use known::{KnownAxis, KnownNumbers};
 use lines::{Input, LineError, Lines};
@@ -254,6 +256,8 @@ impl<'r> Reader<'r> {
             self.recognize_ahead();
             self.refuse_other_files()?;
             self.started = true;
+            let is_metric = !self.is_scout && self.told_unit() == Some(words::MM);
+            self.modal.forms.is_metric |= is_metric;
         }
         Ok(())
     }
@@ -390,7 +394,12 @@ impl<'r> Reader<'r> {
             return false;
         };
         record.line = self.take_lines(length, lines);
-        self.modal.in_arc |= record.kind == kind::SURFACE;
+        if record.kind == kind::SURFACE {
+            self.modal.in_arc = true;
+            self.note_circle(record);
+        } else {
+            self.modal.forms.arc_points = None;
+        }
         self.count(record);
         true
     }

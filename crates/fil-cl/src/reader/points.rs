@@ -191,7 +191,7 @@ impl Reader<'_> {
         let axes = values.chunks(6).all(|six| six.len() == 6 && is_unit([six[3], six[4], six[5]]));
         let message = match () {
             () if axes => "points, or points with tool axes while MULTAX is off",
-            () if self.modal.in_arc => "several points after a CIRCLE: which is its end?",
+            () if self.modal.in_arc => "several points after a CIRCLE whose start is not known",
             () => return Ok(()),
         };
         Err(self.diag(ClCode::UnclearPoints, message, self.all_items()))

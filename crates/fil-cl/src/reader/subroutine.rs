@@ -90,18 +90,21 @@ impl Reader<'_> {
         }
         let is_incremental =
             |record: &Record| record.major == words::MODE && record.has(words::INCR);
-        if ended.body.iter().any(is_incremental) {
+        let counts_on = ended.body.iter().any(is_incremental);
+        // Kept empty, so that its calls are no further errors.
+        let body = if counts_on { Vec::new() } else { ended.body };
+        match self.subroutines.body(ended.number) {
+            // The file is read again from before the definition.
+            Some(known) if *known == body => {}
+            Some(_) => return Err(self.sub_error("the subroutine is defined twice")),
+            None => self.subroutines.whole.push((ended.number, body)),
+        }
+        self.modal.point = None;
+        if counts_on {
             let message =
                 "a subroutine with MODE/INCR: from where its points count is not in the file";
             return Err(self.sub_error(message));
         }
-        match self.subroutines.body(ended.number) {
-            // The file is read again from before the definition.
-            Some(known) if *known == ended.body => {}
-            Some(_) => return Err(self.sub_error("the subroutine is defined twice")),
-            None => self.subroutines.whole.push((ended.number, ended.body)),
-        }
-        self.modal.point = None;
         Ok(Outcome::Nothing)
     }
 

@@ -77,8 +77,8 @@ pub enum ExpectedStep {
     Tool {
         /// Its number.
         number: u32,
-        /// Number of its length offset, where the record gives one.
-        offset: Option<u32>,
+        /// Its length offset, where the record gives one.
+        offset: Option<GivenOffset>,
         /// The operator makes it while the program stops.
         by_hand: bool,
     },
@@ -87,8 +87,8 @@ pub enum ExpectedStep {
     ToolLeftOut {
         /// Its number.
         number: u32,
-        /// Number of its length offset, where the record gives one.
-        offset: Option<u32>,
+        /// Its length offset, where the record gives one.
+        offset: Option<GivenOffset>,
     },
     /// The spindle stands or turns; `None` for the direction the machine turns by itself.
     Spindle(Option<Spindle>),
@@ -308,6 +308,15 @@ pub struct Hole {
     pub rate: Option<Rate>,
     /// A tap in step with the spindle.
     pub rigid: bool,
+}
+
+/// The offset that a tool change names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GivenOffset {
+    /// Number of an offset of the machine.
+    OfMachine(u32),
+    /// Number of one of the tool's own compensations.
+    Compensation(u32),
 }
 
 impl ExpectedStep {

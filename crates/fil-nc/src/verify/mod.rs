@@ -65,7 +65,7 @@ use fil_diag::Diag;
 use fil_machine::locations::{self as loc, CycleRapto};
 use fil_machine::{Commons, Unit};
 
-use crate::dialect::{Family, Habit};
+use crate::dialect::Habit;
 use crate::errors::NcCode;
 use crate::events::Events;
 use crate::interpret::PassedOver;
@@ -76,7 +76,9 @@ use blocks::OwnBlocks;
 
 pub use between::{Between, Peak};
 pub use cl_path::{ClPath, FrameWords, ignored_words, knows_word};
-pub use expected_step::{Arc, CoolantKind, Effect, End, ExpectedStep, Hole, Step, WholeThread};
+pub use expected_step::{
+    Arc, CoolantKind, Effect, End, ExpectedStep, GivenOffset, Hole, Step, WholeThread,
+};
 pub use programs::{Programs, Unfollowed, compare_programs, compare_words};
 pub use report::{Deviation, Finding, FindingKind, Report, Unverified, Verdict};
 pub use settings::{Due, Quantity, Settings, Tolerances};
@@ -138,8 +140,7 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let path = path.through(settings.input_matrix());
     let path = path.with_frame_words(settings.frame_words());
     let path = path.clear_of_threads_by(settings.thread_clearance());
-    let path =
-        path.turning(settings.is_lathe()).with_edges(settings.dialect.family == Family::Sinumerik);
+    let path = path.turning(settings.is_lathe());
     let path = path.naming_tools(settings.dialect.has(Habit::NamesTools));
     let path = path.in_unit(check.unit).leaving_out(check.skips_blocks);
     let path = path.without(check.allowed.without.clone());

@@ -154,6 +154,8 @@ impl Layout {
     pub fn of(name: &str, record: &Record) -> Option<Self> {
         match name {
             "CSYS" | "CATIA0" => Some(Layout::Rows),
+            // A name without numbers is that of an operation.
+            "CATMAT" if numbers(&record.data).is_empty() => None,
             "MSYS" | "CATMAT" => Some(Layout::Axes),
             _ if record.kind == kind::PSEUDO => {
                 let numbers = numbers(&record.data);

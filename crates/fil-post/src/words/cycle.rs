@@ -69,9 +69,9 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         Some(first) if kind == CycleKind::Thru => plates(items, first)?,
         depth => (depth, Vec::new()),
     };
-    let depth = match depth {
-        None if kind == CycleKind::Csink => depth_of_cone(items, &mut words.depth)?,
-        depth => depth,
+    let depth = match kind {
+        CycleKind::Csink => depth_of_csink(items, depth, &mut words.depth)?,
+        _ => depth,
     };
     let depth = depth.ok_or_else(|| PostCode::CycleForm.diag("DEPTH is missing"))?.abs();
     let Levels { clear, travel } = clearance(post, items, &mut words.clear)?;
@@ -151,6 +151,29 @@ fn warn_of_mode(post: &mut Post) {
         post.warn(PostCode::NotRigid, message);
     }
 }
+
+/// The depth of a countersink: DEPTH, or that of its cone.
+///
+/// # Errors
+/// Both, and they differ.
+fn depth_of_csink(items: &mut Items, depth: Option<f64>, at: &mut u16) -> Result<Option<f64>> {
+    let mut at_cone = *at;
+    let Some(cone) = depth_of_cone(items, &mut at_cone)? else { return Ok(depth) };
+    let Some(depth) = depth else {
+        *at = at_cone;
+        return Ok(Some(cone));
+    };
+    if (depth.abs() - cone).abs() > SAME_DEPTH * cone {
+        return PostCode::CycleForm.err_with(
+            format!("CSINK goes to DEPTH {depth}, and DIAMET with TLANGL to {cone:.4}"),
+            "Give only one of the two.",
+        );
+    }
+    Ok(Some(depth))
+}
+
+/// Depths of a countersink are the same when they differ by less than this part of them.
+const SAME_DEPTH: f64 = 0.01;
 
 /// The depth at which a countersink of the angle TLANGL has the diameter DIAMET at the start of
 /// the hole; `None` without them.

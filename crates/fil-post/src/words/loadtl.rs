@@ -10,7 +10,7 @@ use super::cutter;
 use crate::cause::Cause;
 use crate::control::sinumerik::tool_names;
 use crate::items::Items;
-use crate::operation::{Operation, ToolChange};
+use crate::operation::{OffsetFrom, Operation, ToolChange};
 use crate::path::{Since, carry_out, thread};
 use crate::post::Post;
 
@@ -23,11 +23,12 @@ const MOST: f64 = 1e9;
 /// No tool number, or one that does not fit; a tool change in cutter compensation.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let of_tool = items.len() > 1 && items.word_at(items.len() - 1, w::TOOL);
-    let counts_compensations = post.control.can().cutting_edges;
+    let takes_compensation = post.control.can().cutting_edges
+        || post.control.commons.read(loc::TOOL_COMPENSATION_OFFSET);
     let offset = match items.couplet(w::OSETNO)? {
         Some(offset) => Some(offset),
         // The compensations of a tool have numbers of their own where the control has them so.
-        None => items.couplet(w::ADJUST)?.filter(|_| !of_tool || counts_compensations),
+        None => items.couplet(w::ADJUST)?.filter(|_| !of_tool || takes_compensation),
     };
     let offset = offset.map(|offset| (offset, items.last_word()));
     let by_hand = items.flag(w::MANUAL);
@@ -41,9 +42,10 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         return refuse_none(items, "tool 0 is an empty spindle");
     }
     let cause = post.control.block.cause;
-    let (offset, offset_given, offset_cause) = match offset {
-        Some((offset, word)) => (whole(items, offset)?, true, Cause { word, ..cause }),
-        None => (tool, false, cause),
+    let from_record = if of_tool { OffsetFrom::Compensation } else { OffsetFrom::Record };
+    let (offset, offset_from, offset_cause) = match offset {
+        Some((offset, word)) => (whole(items, offset)?, from_record, Cause { word, ..cause }),
+        None => (tool, OffsetFrom::Tool, cause),
     };
     if offset == 0 {
         return refuse_none(items, "offset 0 cancels the tool length offset");
@@ -57,7 +59,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let causes = [cause, offset_cause];
     let next = std::mem::take(&mut post.path.ahead.tools);
     let speed = post.path.ahead.speed.take();
-    let change = ToolChange { tool, offset, offset_given, by_hand, next, speed, causes };
+    let change = ToolChange { tool, offset, offset_from, by_hand, next, speed, causes };
     carry_out(post, Operation::ToolChange(change))
 }
 

@@ -59,7 +59,9 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
         (None, Some(angle), []) => by_way(post, index, angle, way, items)?,
         (None, None, [angle]) => by_way(post, index, *angle, way, items)?,
         (Some(_), None, []) if direction.is_some() && way.is_none() => {
-            return Err(items.error("INCR with a direction: the side it is seen from is not known"));
+            let diag = items.error("INCR with a direction: the side it is seen from is not known");
+            let hint = "Set rotary.faces_positive and rotary.clw_along_normal, or give INCR its sign: Creo writes plus with CLW and minus with CCLW.";
+            return Err(Box::new(diag.hint(hint)));
         }
         (Some(_), None, []) if post.path.multax == Some(true) => {
             return Err(items.error("INCR under MULTAX/ON: the points turn the table too"));
@@ -79,7 +81,8 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
     };
     refuse_minus(post, index, way.filter(|_| direction.is_some()), items)?;
     if direction.is_some() && (way.is_none() || !turns_either_way(post, index)) {
-        let message = "CLW or CCLW of ROTABL: the axis has one way to a position".to_string();
+        let word = if is_rotate { "ROTATE" } else { "ROTABL" };
+        let message = format!("CLW or CCLW of {word}: the axis has one way to a position");
         post.warn(PostCode::IgnoredPart, message);
     }
     carry_out(post, Operation::Turn(index, angle))?;

@@ -24,7 +24,7 @@ use fil_machine::Unit;
 use fil_machine::cycle_kind::CycleKind;
 use nalgebra::{Matrix3x4, Point3, Vector3};
 
-use super::expected_step::{End, ExpectedStep, Step};
+use super::expected_step::{End, ExpectedStep, GivenOffset, Step};
 use super::statements::{numbers, numbers_beside, whole};
 pub use frame_words::FrameWords;
 use frame_words::{Frame, Matrix, Mover};
@@ -68,8 +68,6 @@ struct Tool {
     multax: bool,
     /// The machine is a lathe.
     turns: bool,
-    /// The control counts the compensations of each tool by themselves.
-    has_edges: bool,
 }
 
 /// What SPINDL has asked for last.
@@ -180,12 +178,6 @@ impl<'r> ClPath<'r> {
     /// The path on a lathe, whose turning tools have no axis of their own.
     pub fn turning(mut self, turns: bool) -> Self {
         self.state.tool.turns = turns;
-        self
-    }
-
-    /// The path on a control that counts the compensations of each tool by themselves.
-    pub fn with_edges(mut self, has_edges: bool) -> Self {
-        self.state.tool.has_edges = has_edges;
         self
     }
 
@@ -389,17 +381,14 @@ impl State {
         self.end_thread();
         let numbers = numbers_beside(record, &[w::LENGTH, w::OSETNO, w::ADJUST]);
         let number = *numbers.first()?;
-        // A compensation of the tool is an offset where the control counts them so.
         let of_tool = matches!(record.data[..], [_, .., fil_cl::Word::Minor(w::TOOL)]);
-        let adjust = record.number_after(w::ADJUST).filter(|_| !of_tool || self.tool.has_edges);
-        let offset = record.number_after(w::OSETNO).or(adjust);
-        Some(vec![ExpectedStep::Tool {
-            number: self.names.number(whole(number)?),
-            offset: match offset {
-                Some(offset) => Some(whole(offset)?),
-                None => None,
-            },
-            by_hand: record.has(w::MANUAL),
-        }])
+        let given = [w::OSETNO, w::ADJUST].into_iter().find_map(|word| record.number_after(word));
+        let offset = match given.map(whole) {
+            Some(offset) if of_tool => Some(GivenOffset::Compensation(offset?)),
+            Some(offset) => Some(GivenOffset::OfMachine(offset?)),
+            None => None,
+        };
+        let number = self.names.number(whole(number)?);
+        Some(vec![ExpectedStep::Tool { number, offset, by_hand: record.has(w::MANUAL) }])
     }
 }

@@ -8,6 +8,7 @@ use fil_machine::locations::{
 
 use super::{Due, Settings};
 use crate::motion::unit;
+use crate::verify::GivenOffset;
 
 impl Settings<'_> {
     /// True when the tool's number is that of its diameter offset.
@@ -82,10 +83,16 @@ impl Settings<'_> {
     }
 
     /// The offset that a tool comes with: that of its record, else its own number or,
-    /// where D chooses an edge, the first.
-    pub fn tool_offset(&self, number: u32, given: Option<u32>) -> u32 {
-        let given = given.filter(|_| !self.takes_offsets_of_tools());
-        given.unwrap_or(if self.has_edges() { 1 } else { number })
+    /// where D chooses an edge, the first. A compensation of its own is an edge.
+    pub fn tool_offset(&self, number: u32, given: Option<GivenOffset>) -> u32 {
+        let takes_compensation =
+            self.has_edges() || self.commons.read(loc::TOOL_COMPENSATION_OFFSET);
+        match given {
+            Some(GivenOffset::Compensation(edge)) if takes_compensation => edge,
+            Some(GivenOffset::OfMachine(offset)) if !self.takes_offsets_of_tools() => offset,
+            _ if self.has_edges() => 1,
+            _ => number,
+        }
     }
 
     /// The numbers of offsets are left out: length and radius come with the tool.

@@ -20,7 +20,7 @@ use crate::operation::ToolChange;
 /// # Errors
 /// An offset of its own, where the machine does not say that it is left out.
 pub fn take_own_offset(control: &mut Control, wanted: &mut ToolChange) -> Result<()> {
-    if wanted.offset_given && wanted.offset != wanted.tool {
+    if wanted.is_offset_given() && wanted.offset != wanted.tool {
         let offset = wanted.offset;
         let message = format!("LOADTL asks for offset {offset}: the length comes with the tool");
         own_offsets::leave_out(control, Some(wanted.tool), offset as f64, &message)?;

@@ -8,19 +8,20 @@ use crate::control::word_address::tool as words;
 use crate::control::{Control, own_offsets};
 use crate::control_state::modal;
 use crate::errors::PostCode;
-use crate::operation::ToolChange;
+use crate::operation::{OffsetFrom, ToolChange};
 
 /// The highest number of a cutting edge.
 const EDGES: i64 = 9;
 
-/// Changes the tool and takes its cutting edge: that of OSETNO, else the first. Length
-/// and radius come from the control's table with it.
+/// Changes the tool and takes its cutting edge: that of OSETNO or of its compensation, else the
+/// first. With `control.tool_offsets`, OSETNO is an offset of the machine and no edge. Length and radius come from the control's table with it.
 ///
 /// # Errors
 /// A tool that does not fit; an edge that no tool has.
 pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     let mut edge = edge_of(&wanted);
-    if !(1..=EDGES).contains(&edge) || edge > 1 && own_offsets::of_tool(control) {
+    let is_of_machine = wanted.offset_from == OffsetFrom::Record;
+    if !(1..=EDGES).contains(&edge) || edge > 1 && is_of_machine && own_offsets::of_tool(control) {
         let message = format!(
             "LOADTL asks for offset {edge}: D names one of the cutting edges 1 to {EDGES} of the \
              tool"
@@ -44,7 +45,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
 
 /// The cutting edge that a change asks for.
 pub fn edge_of(wanted: &ToolChange) -> i64 {
-    if wanted.offset_given { wanted.offset } else { 1 }
+    if wanted.is_offset_given() { wanted.offset } else { 1 }
 }
 
 /// Names the next tool, on a machine that prepares it.

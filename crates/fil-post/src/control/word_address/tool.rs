@@ -168,7 +168,7 @@ fn without_offset(control: &mut Control, wanted: ToolChange, has_code: bool) -> 
              number of the tool.",
         );
     }
-    if wanted.offset_given && wanted.offset != wanted.tool {
+    if wanted.is_offset_given() && wanted.offset != wanted.tool {
         let message = format!(
             "LOADTL asks for offset {}, and the machine calls no length offset",
             wanted.offset
@@ -191,7 +191,7 @@ fn length_offset(
         return Ok(());
     }
     // OSETNO names the offset itself; else it is the number of the tool, where the machine says so.
-    let calls = control.commons.read(loc::TOOL_LENGTH_FROM_TOOL) || wanted.offset_given;
+    let calls = control.commons.read(loc::TOOL_LENGTH_FROM_TOOL) || wanted.is_offset_given();
     let code = control.code_if_any(loc::TOOL_LENGTH_CODE);
     let Some(code) = code.filter(|_| calls) else {
         return without_offset(control, wanted, code.is_some());
