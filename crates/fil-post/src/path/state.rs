@@ -356,6 +356,8 @@ pub struct Awaited {
     pub thread: Thread,
     /// The thread runs across a face.
     pub on_face: bool,
+    /// Direction of the cut from Z (CUTANG), degrees.
+    pub direction: Option<f64>,
     /// Where the tool stood before.
     pub from: Option<Target>,
     /// Where the crest begins.

@@ -9,6 +9,10 @@ use crate::errors::PostCode;
 use crate::operation::{Lead, MotionKind, Operation, SpindleSpeed, Target, Thread, ThreadSide};
 use crate::post::Post;
 use fil_diag::Result;
+use nalgebra::Point3;
+
+/// An angle nearer to that of the cone is the same, degrees.
+const SAME_ANGLE: f64 = 0.05;
 
 /// Takes a point of a thread that waits for it; a motion of any other thread is one pass.
 ///
@@ -38,6 +42,7 @@ pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
         None => awaited.start = Some(target),
         Some(start) => {
             awaited.is_cut = true;
+            check_direction(&awaited, [start.point, target.point])?;
             let side = side_of(&awaited, start, post.control.spindle.is_side)?;
             let clearance = clearance_of(&awaited, start, side);
             let crest = [start, target];
@@ -47,6 +52,27 @@ pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
     }
     post.path.thread.awaited = Some(awaited);
     Ok(())
+}
+
+/// CUTANG gives the direction of the cut from Z: 0 or 180 degrees along the spindle, 90 or 270 across
+/// a face, whatever the cone; else the angle of the cone, to either side.
+///
+/// # Errors
+/// Its two points make another cone.
+fn check_direction(awaited: &Awaited, [from, to]: [Point3<f64>; 2]) -> Result<()> {
+    let Some(asked) = awaited.direction else { return Ok(()) };
+    let off = asked.rem_euclid(180.0);
+    let from_z = off.min(180.0 - off);
+    let cone = libm::atan2((to.x - from.x).abs(), (to.z - from.z).abs()).to_degrees();
+    let usual = if awaited.on_face { [0.0, 90.0] } else { [0.0, 0.0] };
+    let is_same = |angle: &f64| (from_z - angle).abs() <= SAME_ANGLE;
+    if [cone, usual[0], usual[1]].iter().any(is_same) {
+        return Ok(());
+    }
+    PostCode::Thread.err_with(
+        format!("CUTANG,{asked} of OP/THREAD, and the two points make a cone of {cone:.2} degrees"),
+        "Leave CUTANG out: the cone is that of the two points.",
+    )
 }
 
 /// Refuses blocks between two motions of one pass: the tool would stand in its groove while the

@@ -13,16 +13,6 @@ use crate::operation::{Lead, Target, Thread, ThreadPasses, ThreadSide};
 use crate::path::{Awaited, Passes, thread};
 use crate::post::Post;
 
-/// An angle of the cone nearer to that of the two points is the same, degrees.
-const SAME_ANGLE: f64 = 0.05;
-
-/// CUTANG gives the direction of the cut from Z: 0 or 180 degrees for a straight thread along
-/// the spindle, as Creo writes them, and 90 or 270 for one on a face.
-fn is_along(cone: f64, on_face: bool) -> bool {
-    let off = cone.rem_euclid(180.0);
-    off.min(180.0 - off) <= SAME_ANGLE || on_face && (off - 90.0).abs() <= SAME_ANGLE
-}
-
 /// Remembers the lead, or what the whole thread is. FEDRAT, LOADTL or OP/NOMORE end it.
 ///
 /// # Errors
@@ -43,12 +33,12 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let depth = given(items.couplet(w::DEPTH)?);
     let cuts = given(items.couplet(w::CUTS)?);
     let springs = items.couplet(w::FINCUT)?;
-    let cone = items.couplet(w::CUTANG)?;
+    let direction = items.couplet(w::CUTANG)?;
     items.deny_rest()?;
     let (depth, cuts) = match (depth, cuts) {
         (Some(depth), Some(cuts)) => (depth, cuts),
         (None, None) => {
-            if starts != 1 || given(springs).is_some() || given(cone).is_some() {
+            if starts != 1 || given(springs).is_some() || given(direction).is_some() {
                 return Err(items.error("MULTRD, FINCUT and CUTANG need DEPTH and CUTS"));
             }
             post.path.thread.passes = Some(Passes::new(pitch, 0.0));
@@ -56,9 +46,6 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         }
         _ => return PostCode::Thread.err("OP/THREAD needs DEPTH and CUTS, or neither"),
     };
-    if cone.is_some_and(|cone| !is_along(cone, on_face)) {
-        return Err(items.error("CUTANG: the cone is that of the two points; leave the angle out"));
-    }
     if cuts.fract() != 0.0 || !(1.0..=1000.0).contains(&cuts) {
         return PostCode::Thread.err(format!("{cuts} passes"));
     }
@@ -78,7 +65,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         clearance: usual_clearance(post),
     };
     post.path.thread.passes = Some(Passes::new(pitch, 0.0));
-    let awaited = Awaited { thread, on_face, from, start: None, is_cut: false };
+    let awaited = Awaited { thread, on_face, direction, from, start: None, is_cut: false };
     post.path.thread.awaited = Some(Box::new(awaited));
     Ok(())
 }
