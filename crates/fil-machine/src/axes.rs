@@ -30,6 +30,9 @@ const WITHIN_A_TURN: &str = "output positions of an axis without travel within 3
 /// Scale of X when the tape holds diameters.
 const DIAMETER: f64 = 2.0;
 
+/// An axis that moves less than this does not move: a lathe has its tip at Y0, mm or inch.
+const NO_TRAVEL: f64 = 0.01;
+
 /// Scales of X, Y, Z, A, B and C on the tape.
 pub(crate) const SCALE: [Dbl; 6] =
     [loc::SCALE_X, loc::SCALE_Y, loc::SCALE_Z, loc::SCALE_A, loc::SCALE_B, loc::SCALE_C];
@@ -389,7 +392,12 @@ impl Axis {
             (false, true) => format!("above {max}"),
             _ => format!("outside {min} to {max}"),
         };
-        MachineCode::AxisLimit.diag(format!("{letter}{told} lies {beyond}"))
+        let mut diag = MachineCode::AxisLimit.diag(format!("{letter}{told} lies {beyond}"));
+        if max - min < NO_TRAVEL {
+            let hint = "The axis has no travel: turning is in X and Z. Put MODE / MILL before the work of a live tool; where the file has the spindle along X, set input.kind = 2 and input.matrix_ax to input.matrix_cz.";
+            diag.hint = Some(hint.to_string());
+        }
+        diag
     }
 
     /// True when the tape does not yet stand at this scaled value.

@@ -222,10 +222,14 @@ pub(super) fn turning_feed(
 ) -> Result<()> {
     let (_, axis) = position::transformed(post, target);
     if lie(axis)? == Lie::Axial {
-        return PostCode::Polar.err(
-            "C would turn in a feed move of a tool along Z; polar interpolation \
-             (mill_turn.polar_code) begins at a rapid move",
-        );
+        let message = "C would turn in a feed move of a tool along Z";
+        let has_code = post.control.commons.read(loc::MILL_TURN_POLAR_CODE).is_some();
+        let hint = if has_code {
+            "Put RAPID before the first move: polar interpolation begins there."
+        } else {
+            "Set mill_turn.polar_code (polar interpolation): without it the post drills on the face, and mills no path across it."
+        };
+        return PostCode::Polar.err_with(message, hint);
     }
     cylinder::feed(post, from, to, target)
 }

@@ -43,6 +43,13 @@ pub struct FrameWords {
     pub author_turns: [Option<u8>; 2],
 }
 
+impl FrameWords {
+    /// The machine lists the word as without effect.
+    pub(super) fn is_without_effect(&self, word: &str) -> bool {
+        self.without_effect.iter().any(|listed| listed == word)
+    }
+}
+
 /// TRANS with a matrix.
 pub(super) struct Matrix {
     pub(super) rows: Matrix3x4<f64>,

@@ -46,7 +46,7 @@ impl State {
     /// Takes the frame of a record that names one.
     pub(super) fn name_frame(&mut self, record: &Record, word: &str) {
         if !matches!(word, "CSYS" | "CATIA0" | "MSYS" | "CATMAT")
-            || self.frame.words.without_effect.iter().any(|listed| listed == word)
+            || self.frame.words.is_without_effect(word)
         {
             return;
         }

@@ -23,7 +23,11 @@ pub(super) enum Reading {
     Or(Effect, fn(&mut State, &Record) -> Option<Steps>),
     /// Words of the user's own.
     Own(fn(&State, &Record, &Vocabulary) -> OwnStep),
-    /// It changes the path or the frame by rules that are not public.
+    /// Its steps, as the machine means it, else it leaves the path open; none where the machine
+    /// lists it as without effect.
+    Chosen(fn(&mut State, &Record) -> Option<Steps>),
+    /// It changes the path or the frame by rules that are not public, unless the machine lists it
+    /// as without effect.
     EndsThePath,
     /// Its record has a kind of its own, which is read before words are.
     ByKind,
@@ -31,7 +35,7 @@ pub(super) enum Reading {
     Ignored(&'static str),
 }
 
-use Reading::{ByKind, EndsThePath, Ignored, Or, Own, Steps as S};
+use Reading::{ByKind, Chosen, EndsThePath, Ignored, Or, Own, Steps as S};
 
 const COMMENT: &str = "its text is a comment, which moves and switches nothing";
 const NO_PROGRAM: &str = "the post refuses the record, so no program comes of it";
@@ -54,10 +58,10 @@ pub(super) const WORDS: &[(WordId, Reading)] = &[
     (w::UNITS, S(State::units)),
     (w::UNIT, S(State::units)),
     (w::TRANS, S(State::trans)),
-    (w::ORIGIN, Or(Effect::Path, State::origin)),
-    (w::TRACUT, Or(Effect::Path, State::tracut)),
-    (w::ROTABL, Or(Effect::Path, State::table)),
-    (w::ROTATE, Or(Effect::Path, State::table)),
+    (w::ORIGIN, Chosen(State::origin)),
+    (w::TRACUT, Chosen(State::tracut)),
+    (w::ROTABL, Chosen(State::table)),
+    (w::ROTATE, Chosen(State::table)),
     (w::PITCH, Or(Effect::Path, State::pitch)),
     (w::OP, Or(Effect::Path, State::thread)),
     (w::THREAD, Or(Effect::Path, State::thread)),
@@ -66,7 +70,7 @@ pub(super) const WORDS: &[(WordId, Reading)] = &[
     (w::PREFUN, Own(|state, record, _| state.preparatory(record))),
     (w::AUXFUN, Or(Effect::Auxiliary, |state, record| state.auxiliary(record))),
     (w::CLAMP, S(|_, record| vec![ExpectedStep::Clamp(record.has(w::ON))])),
-    (w::SET, S(|_, record| offset_by_number(record))),
+    (w::SET, Chosen(|_, record| Some(offset_by_number(record)))),
     (w::STOP, S(|_, _| vec![ExpectedStep::Stop { optional: false }])),
     (w::OPSTOP, S(|_, _| vec![ExpectedStep::Stop { optional: true }])),
     (w::INSERT, S(State::insert)),
@@ -124,6 +128,12 @@ impl State {
     pub(super) fn command(&mut self, record: &Record, vocabulary: &Vocabulary) -> Steps {
         let open = |effect| ExpectedStep::Unknown { what: statement(record, vocabulary), effect };
         match reading(record.major) {
+            Some(Chosen(_) | EndsThePath)
+                if self.frame.words.is_without_effect(vocabulary.name(record.major)) =>
+            {
+                Vec::new()
+            }
+            Some(Chosen(steps)) => steps(self, record).unwrap_or_else(|| vec![open(Effect::Path)]),
             Some(S(steps)) => steps(self, record),
             Some(Or(effect, steps)) => steps(self, record).unwrap_or_else(|| vec![open(effect)]),
             Some(Own(words)) => {
