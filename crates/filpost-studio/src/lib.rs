@@ -28,6 +28,7 @@ mod http;
 mod page;
 mod presence;
 mod server;
+mod texts;
 mod works;
 
 pub use server::Studio;

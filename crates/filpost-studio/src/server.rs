@@ -16,6 +16,7 @@ use crate::folder::Folder;
 use crate::http::{self, Refusal, Request};
 use crate::page;
 use crate::presence::Presence;
+use crate::texts::Texts;
 use crate::works::Works;
 
 /// Most connections at a time.
@@ -47,6 +48,7 @@ struct Desk {
     host: String,
     presence: Presence,
     works: Works,
+    texts: Texts,
     connections: AtomicUsize,
 }
 
@@ -72,6 +74,7 @@ impl Studio {
             host,
             presence: Presence::default(),
             works: Works::default(),
+            texts: Texts::default(),
             connections: AtomicUsize::new(0),
         };
         Ok(Studio { listener, desk: Arc::new(desk) })
@@ -183,7 +186,10 @@ impl Desk {
     }
 
     fn ask(&self, body: &[u8]) -> Result<Value, Refusal> {
-        let request: Value = serde_json::from_slice(body).map_err(|_| Refusal::Malformed)?;
+        let mut request: Value = serde_json::from_slice(body).map_err(|_| Refusal::Malformed)?;
+        if self.texts.put_into(&mut request).is_err() {
+            return Ok(json!({ "unkept": true }));
+        }
         let own = self.folder.answer(&request).or_else(|| self.works.answer(&request));
         if let Some(answer) = own {
             return Ok(answer);

@@ -311,3 +311,19 @@ fn it_ends_when_its_last_page_is_closed() {
     let waited = closed.elapsed();
     assert!(waited > Duration::from_secs(2) && waited < Duration::from_secs(20), "{waited:?}");
 }
+
+#[test]
+fn a_long_text_is_sent_once() {
+    let studio = Running::start();
+    let post = |texts: Value| {
+        studio.ask(&json!({ "do": "post", "ready": "fanuc-mill", "texts": { "cl": texts } }))
+    };
+    let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / 900, RPM, CLW\nRAPID\nGOTO / 1, 2, 3\nFINI\n";
+    let at = cl.find("1, 2").unwrap();
+    let first = post(json!({ "keep": "a", "text": cl }));
+    assert!(first["nc"].as_str().unwrap().contains("X1."), "{first}");
+    assert_eq!(post(json!({ "kept": "a" }))["nc"], first["nc"]);
+    let other = post(json!({ "keep": "b", "of": "a", "from": at, "to": at + 1, "text": "7" }));
+    assert_eq!(other["nc"], first["nc"].as_str().unwrap().replace("X1.", "X7."));
+    assert_eq!(post(json!({ "kept": "c" })), json!({ "unkept": true }));
+}

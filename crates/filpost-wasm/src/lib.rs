@@ -140,6 +140,8 @@ fn read(request: Value, watch: &Watch) -> Result<Value, Misuse> {
         #[cfg(feature = "navigate")]
         "signature" => Edited::read(fields)?.signature(),
         #[cfg(feature = "navigate")]
+        "beside" => Edited::read(fields)?.beside(),
+        #[cfg(feature = "navigate")]
         "format" => Edited::read(fields)?.format(),
         #[cfg(feature = "post")]
         "new" => setup::new_post(fields)?,

@@ -155,8 +155,9 @@ function shapeOf(number, text) {
   };
   const point = value("A");
   if (!value("D")) return null;
+  const holder = [...text.matchAll(/H\s*([\d.]+)\s*x\s*([\d.]+)/gi)].map(([, wide, long]) => [Number(wide) * unit, Number(long) * unit]);
   return {
-    number, diameter: value("D") * unit, corner: value("R") * unit, bottom: point ? 90 - point / 2 : 0, length: value("L") * unit || null,
+    number, diameter: value("D") * unit, corner: value("R") * unit, bottom: point ? 90 - point / 2 : 0, length: value("L") * unit || null, holder,
   };
 }
 

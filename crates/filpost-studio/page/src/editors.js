@@ -4,6 +4,7 @@ import { setDiagnostics } from "@codemirror/lint";
 import { Annotation, Compartment, EditorState, RangeSet, StateEffect, StateField } from "@codemirror/state";
 import { Decoration, EditorView, gutter, GutterMarker, hoverTooltip, keymap } from "@codemirror/view";
 import { basicSetup } from "codemirror";
+import { beside } from "./beside.js";
 import { el, prose } from "./dom.js";
 import { languageOf, wordColours } from "./languages.js";
 import { isDark, themed } from "./theme.js";
@@ -265,6 +266,7 @@ export function editor(parent, { name, text, kind, readOnly, ask, file, changed,
     }),
     cursor(pointed),
   ];
+  if (kind === "fil") extensions.push(beside);
   if (file) extensions.push(hovers(ask, file), autocompletion({ override: [proposals(ask, file)] }));
   return shaded(new EditorView({ parent, state: EditorState.create({ doc: text, extensions }) }));
 }

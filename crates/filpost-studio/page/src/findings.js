@@ -19,7 +19,7 @@ export class Findings {
     this.changed = signal();
     const check = debounced(400, () => this.check());
     const later = debounced(300, () => this.judge());
-    files.changed.on((name, by) => by !== "save" && kindOf(name) !== "text" && later());
+    files.changed.on((name, by) => by !== "save" && ["fil", "machine"].includes(kindOf(name)) && later());
     files.listed.on(later);
     for (const judge of judges) judge.changed.on(() => this.changed.tell());
     posting.done.on(() => {

@@ -263,7 +263,7 @@ startCasebook(cases, files, posting, {
   },
 });
 startNaming(files, editing, ask, { open });
-startOutline(files, editing, ask, { open });
+startOutline(files, posting, editing, ask, { open });
 editing.addPane(FORM, "Machine", form.box);
 
 /** For the tests of the page: the text of a file, and a page without files. */

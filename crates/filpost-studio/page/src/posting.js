@@ -5,8 +5,8 @@ import { isFil } from "./files.js";
 /** Longest CL text that is posted while somebody types, characters. */
 const LARGE = 8_000_000;
 
-/** Pause after the last key, milliseconds. */
-const PAUSE = 180;
+/** Pause after a key, milliseconds. */
+const PAUSE = 50;
 
 /** A run that takes longer is shown as one, milliseconds. */
 const LONG = 400;
@@ -34,10 +34,27 @@ export class Posting {
     this.done = signal();
     /** A run takes long, has come farther, or was stopped. */
     this.moved = signal();
-    this.later = debounced(PAUSE, () => this.run());
+    /** A change waits to be posted. */
+    this.isPending = false;
+    this.idlers = [];
+    const later = debounced(PAUSE, () => this.run());
     files.changed.on((name, by) => {
-      if (by !== "save" && this.reads(name)) this.isLarge() ? this.done.tell() : this.later();
+      if (by === "save" || !this.reads(name)) return;
+      if (this.isLarge()) return this.done.tell();
+      this.isPending = true;
+      later();
     });
+  }
+
+  /** Waits until the program is that of the texts: other questions about a long text come behind it. */
+  idle() {
+    return this.isPending || this.isRunning ? new Promise((resolve) => this.idlers.push(resolve)) : Promise.resolve();
+  }
+
+  /** A run has ended. */
+  rest() {
+    this.isRunning = false;
+    if (!this.isPending) this.idlers.splice(0).forEach((resolve) => resolve());
   }
 
   /** True when the program depends on a file. */
@@ -85,6 +102,7 @@ export class Posting {
   }
 
   async run() {
+    this.isPending = false;
     if (this.part && this.files.has(this.part)) await this.files.read(this.part);
     const number = ++this.asked;
     this.recipe = this.part ? await this.recipeOf(this.part) : null;
@@ -101,7 +119,7 @@ export class Posting {
     if (number !== this.asked) return;
     this.work = null;
     if (!this.isStopped) return this.take(answer, performance.now() - begun);
-    this.isRunning = false;
+    this.rest();
     this.moved.tell();
   }
 
@@ -119,12 +137,12 @@ export class Posting {
   }
 
   take(answer, time) {
-    this.isRunning = false;
     this.answer = answer;
     this.time = time;
     const nc = answer?.nc ?? "";
     this.lines = nc.replaceAll("\r\n", "\n").split("\n");
     this.made = null;
+    this.rest();
     this.done.tell();
   }
 

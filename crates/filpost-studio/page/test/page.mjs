@@ -1,6 +1,6 @@
 // How the page behaves: keys, labels, panes, a phone, texts of strangers; the same over each back end.
 import assert from "node:assert/strict";
-import { begin, faults, openFile, said, typeAtTop } from "./steps.mjs";
+import { addFile, begin, faults, openFile, said, typeAtTop } from "./steps.mjs";
 
 export const behaving = {
   async "keys, labels and contrast are as they should be"(studio) {
@@ -83,6 +83,14 @@ export const behaving = {
     await picture("phone-program");
     const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
     assert.equal(wide, false, "nothing is wider than the screen");
+    // The path can be looked at, played, and clicked.
+    await page.locator("#views button", { hasText: "Findings" }).click();
+    await page.getByRole("tab", { name: "Path" }).click();
+    await page.locator(".fv-legend label", { hasText: "feed" }).waitFor();
+    await page.getByRole("button", { name: "One motion back" }).click();
+    const canvas = await page.locator("#view canvas").boundingBox();
+    assert.ok(canvas.width > 300 && canvas.height > 200, JSON.stringify(canvas));
+    await picture("phone-path");
     assert.deepEqual(await faults(page), []);
     await close();
   },
@@ -99,6 +107,15 @@ export const behaving = {
     await openFile(page, "machine.toml");
     await typeAtTop(page, `name = "${hurt.replaceAll('"', "'")}"\n`);
     await page.waitForTimeout(800);
+    // Names of files too: of the part, of a script, of the program that is laid under the own one.
+    for (const [end, text] of [["ncl", "UNITS / MM\nLOADTL / 1\nBAD\nFINI\n"], ["fil", "XX = SQRTFF(4)\n"], ["nc", "G1 X5. F100\nM30\n"]]) {
+      await addFile(page, `<img src=x onerror='window.hurt=3'>-${end}.${end}`, text);
+    }
+    await page.getByRole("tab", { name: "Path" }).click();
+    await page.locator("#second").selectOption({ label: "<img src=x onerror='window.hurt=3'>-nc.nc" });
+    await page.locator("#dialog", { hasText: "-nc.nc can't be shown" }).locator(".close").click();
+    await page.click("#tab-cases");
+    await page.waitForTimeout(300);
     assert.equal(await page.evaluate(() => window.hurt), undefined);
     await close();
   },

@@ -8,6 +8,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
+import { drawing } from "./drawing.mjs";
 import { behaving } from "./page.mjs";
 import { running } from "./running.mjs";
 import { making } from "./studio.mjs";
@@ -87,7 +88,7 @@ async function studio({ viewport = { width: 1280, height: 800 }, hash } = {}) {
   return { ...made, picture: (name) => picture(made.page, name) };
 }
 
-const tests = { ...making, ...running, ...behaving };
+const tests = { ...making, ...running, ...drawing, ...behaving };
 let failed = 0;
 const known = isPlayground ? { ...(await import("./alone.mjs")).alone, ...tests } : tests;
 const wanted = process.env.FILPOST_STUDIO_TEST ?? "";

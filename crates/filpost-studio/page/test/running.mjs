@@ -210,23 +210,4 @@ export const running = {
     await page.locator("#stop").waitFor({ state: "hidden" });
     await close();
   },
-
-  async "a block shows its motions, and a motion its block"(studio) {
-    const { page, picture, close } = await studio();
-    await begin(page, "haas-mill");
-    await page.getByRole("tab", { name: "Path" }).click();
-    const block = page.locator(".fv-block");
-    await page.locator(".fv-legend label", { hasText: "feed" }).waitFor();
-    const line = page.locator("#nc .cm-line", { hasText: /X\d/ }).last(), text = (await line.innerText()).trim();
-    await line.click();
-    await page.locator(".fv-block", { hasText: text }).waitFor();
-    await picture("path");
-    // Beside the middle of the marked motion, where the tool stands at its end, lies its line.
-    await page.getByRole("button", { name: "One motion back" }).click();
-    assert.notEqual(await block.innerText(), "");
-    await page.locator("#second").selectOption({ label: "cases/first/part.ncl" });
-    await page.locator(".fv-legend label", { hasText: "part.ncl" }).waitFor();
-    await picture("path-over-cl");
-    await close();
-  },
 };

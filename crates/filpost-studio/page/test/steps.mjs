@@ -17,6 +17,13 @@ export async function begin(page, ready) {
   await said(page, "blocks");
 }
 
+/** Adds a file to the post. */
+export async function addFile(page, name, text) {
+  const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("#add")]);
+  await chooser.setFiles({ name, mimeType: "text/plain", buffer: Buffer.from(text) });
+  await page.locator("#tree .name", { hasText: name }).waitFor();
+}
+
 /** Types text at the start of the file that is shown. */
 export async function typeAtTop(page, text) {
   await page.locator("#editors .editor:visible .cm-content").click();

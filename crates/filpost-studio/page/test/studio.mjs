@@ -1,7 +1,10 @@
 // What a person does in the studio to make a post; the same over each back end.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { COMMON, SECTIONS } from "../src/panes/settings.js";
-import { begin, faults, nc, openFile, said, setting, shows, typeAtTop } from "./steps.mjs";
+import { addFile, begin, faults, nc, openFile, said, setting, shows, typeAtTop } from "./steps.mjs";
 
 export const making = {
   async "from an empty folder to a saved post"(studio) {
@@ -133,6 +136,41 @@ export const making = {
     await page.keyboard.press("Control+s");
     await page.waitForFunction(() => !document.querySelector("#tree .dirty"));
     assert.match(await read("machine.toml"), /style = "production"/);
+    await close();
+  },
+
+  async "an option file becomes a post"(studio) {
+    const { page, read, close } = await studio();
+    if ((await page.locator("#place").innerText()) === "playground") {
+      await said(page, /blocks|Refused/);
+      await page.evaluate(() => globalThis.filpost.empty());
+    }
+    const shop = (name) => readFileSync(join(dirname(fileURLToPath(import.meta.url)), "../../../../tests/cases/option-files", name));
+    const [chooser] = await Promise.all([
+      page.waitForEvent("filechooser"), page.getByRole("button", { name: "Import an option file…" }).click(),
+    ]);
+    await chooser.setFiles({ name: "brackets.p07", mimeType: "text/plain", buffer: shop("brackets.p07") });
+    await page.locator('#tree .name[title="machine.toml"]').waitFor();
+    await addFile(page, "brackets.ncl", shop("brackets.ncl"));
+    await shows(page, "[HELLO]");
+    await page.keyboard.press("Control+s");
+    await page.waitForFunction(() => !document.querySelector("#tree .dirty"));
+    assert.match(await read("machine.toml"), /\[/);
+    await close();
+  },
+
+  async "a script has hints and folds"(studio) {
+    const { page, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    await openFile(page, "post.fil");
+    const script = page.locator("#editors .editor:visible");
+    await typeAtTop(page, "CIMFIL/ON,SPINDL\n  XX = POSTF(7,4)\n  DMY = POSTF(13)\nCIMFIL/OFF\n");
+    await script.locator(".cm-line", { hasText: "POSTF(7" }).locator(".beside").first().waitFor();
+    await picture("hints");
+    await script.locator(".cm-foldGutter [title='Fold line']").first().click();
+    await script.locator(".cm-foldPlaceholder").waitFor();
+    await script.locator(".cm-line", { hasText: "POSTF(7" }).waitFor({ state: "detached" });
+    assert.deepEqual(await faults(page), [], "the hints");
     await close();
   },
 

@@ -49,6 +49,19 @@ impl Edited {
         })
     }
 
+    /// What stands beside a script: `hints`, each `[line, character, text]`, such as the meaning of a number of POSTF;
+    /// and `folds`, each the first and the last line of what can be folded. Lines from 0.
+    pub fn beside(&self) -> Value {
+        self.in_script(|script| {
+            let hints = script
+                .inlays()
+                .into_iter()
+                .map(|hint| json!([hint.position.line, hint.position.character, hint.label]));
+            let folds = script.folds().into_iter().map(|fold| json!([fold.first, fold.last]));
+            json!({ "hints": hints.collect::<Value>(), "folds": folds.collect::<Value>() })
+        })
+    }
+
     /// The `text` of a FIL file laid out as the formatter does; or `why` not.
     pub fn format(&self) -> Value {
         match filpost::syntax::format(&self.name, &self.text) {

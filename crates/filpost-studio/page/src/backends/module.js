@@ -7,7 +7,7 @@ const PATIENCE = 20_000;
 /** What the second module answers; the first has all else. */
 const JUDGED = new Set([
   "plot", "columns", "verify", "audit", "compare", "motions", "simulate", "debug", "cover",
-  "outline", "definition", "references", "rename", "signature", "format",
+  "outline", "definition", "references", "rename", "signature", "format", "beside",
 ]);
 
 /** One module in a worker: requests, and a new worker where one takes too long. */
@@ -17,6 +17,8 @@ class Asked {
     this.words = words;
     this.waiting = new Map();
     this.number = 0;
+    /** What was asked last so that it can be stopped. */
+    this.last = Promise.resolve();
     this.start();
   }
 
@@ -74,10 +76,24 @@ class Asked {
     }
   }
 
-  /** Asks so that it can be stopped. */
+  /** Asks so that it can be stopped. Begun is one after the other: what is superseded before is never asked. */
   askStoppable(request, told, isPatient) {
-    const answer = this.ask(request, isPatient, told), { number } = this;
-    return { answer, stop: () => this.waiting.has(number) && this.giveUp(number, "it was stopped") };
+    let number = null, isOver = false;
+    const answer = this.last.then(() => {
+      if (isOver) throw new Error("it was stopped");
+      const asked = this.ask(request, isPatient, told);
+      number = this.number;
+      return asked;
+    });
+    this.last = answer.catch(() => null);
+    return {
+      answer,
+      supersede: () => (isOver = true),
+      stop: () => {
+        isOver = true;
+        if (this.waiting.has(number)) this.giveUp(number, "it was stopped");
+      },
+    };
   }
 }
 
@@ -111,7 +127,7 @@ export function moduleBackend(parts) {
     keeps: false,
     ask,
     /** The module is stopped with its worker, and so only where somebody asks for that. */
-    watched: (request, told, isPatient) => ({ ...first.askStoppable(request, told, isPatient), supersede: () => {} }),
+    watched: (request, told, isPatient) => first.askStoppable(request, told, isPatient),
     list: async () => ({
       folder: "playground", all: true,
       files: [...kept].map(([name, { text, stamp }]) => ({ name, size: text.length, stamp })),

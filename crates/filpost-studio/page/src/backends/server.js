@@ -1,7 +1,18 @@
 // The local server of `filpost studio`: files of the folder, and answers of the library.
+import { SentTexts } from "./texts.js";
+
+const sent = new SentTexts();
+
+/** Asks the server, with long texts by their names where it has them. */
+async function ask(request) {
+  const answer = await askAsItIs(sent.pack(request));
+  if (!answer?.unkept) return answer;
+  sent.forget();
+  return askAsItIs(request);
+}
 
 /** Asks the server, JSON for JSON. */
-async function ask(request) {
+async function askAsItIs(request) {
   const response = await fetch("ask", {
     method: "POST",
     headers: { "Content-Type": "application/json" },

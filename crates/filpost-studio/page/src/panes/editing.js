@@ -1,4 +1,5 @@
 // The open files, each in a tab with an editor of its own.
+import { showBeside } from "../beside.js";
 import { by, debounced, el, prose, signal } from "../dom.js";
 import { editor, goTo, markdown, markLines, position, setText, showFindings, showMissed, showStanding, showStops } from "../editors.js";
 import { baseOf, isCl, isFil, kindOf } from "../files.js";
@@ -19,6 +20,9 @@ export class Editing {
     /** The cursor is in a line: file and line. */
     this.pointed = signal();
     this.chosen = signal();
+    const lookBeside = debounced(300, () => this.showBeside());
+    this.chosen.on(lookBeside);
+    files.changed.on((name) => (isFil(name) || name === MACHINE) && lookBeside());
     this.tellWord = debounced(120, (name, at) => this.showWord(name, at));
     by("open-tabs").addEventListener("keydown", (event) => this.key(event));
     files.changed.on((name, who) => this.follow(name, who));
@@ -203,13 +207,25 @@ export class Editing {
       box.replaceChildren();
       return;
     }
-    const { doc } = view.state;
-    const request = { do: "hover", ...this.asked(language, name, doc.toString()), ...position(doc, Math.min(at, doc.length)) };
-    const answer = doc.length < 4_000_000 ? await this.ask(request).catch(() => null) : null;
+    await this.posting.idle();
+    if (number !== this.told) return;
+    const { doc } = view.state, place = position(doc, Math.min(at, doc.length));
+    const text = isCl(name) ? doc.sliceString(0, statementEnd(doc, place.line + 1)) : doc.toString();
+    const request = { do: "hover", ...this.asked(language, name, text), ...place };
+    const answer = await this.ask(request).catch(() => null);
     const call = isFil(name) ? await this.ask({ ...request, do: "signature" }).catch(() => null) : null;
     // The cursor may be elsewhere by now.
     if (number !== this.told) return;
     box.replaceChildren(...[call?.label ? callShown(call) : null, answer?.markdown ? markdown(answer.markdown) : null].filter(Boolean));
+  }
+
+  /** Shows hints and folds of the script that is shown. */
+  async showBeside() {
+    const name = this.current, { view } = this.open.get(name) ?? {};
+    if (!view || !isFil(name)) return;
+    const { doc } = view.state;
+    const found = await this.ask({ do: "beside", ...this.asked("fil", name, doc.toString()) }).catch(() => null);
+    if (found?.hints && view.state.doc === doc) showBeside(view, found);
   }
 
   key(event) {
@@ -224,6 +240,12 @@ export class Editing {
     const next = names[(names.indexOf(this.current) + step + names.length) % names.length];
     this.show(next).then(() => this.open.get(next).tab.focus());
   }
+}
+
+/** Where the statement of a line ends, which may go on in the next ones. */
+function statementEnd(doc, line) {
+  while (line < doc.lines && /[^$]\$\s*$/.test(doc.line(line).text)) line += 1;
+  return doc.line(line).to;
 }
 
 /** The call that is written, with the argument that is next. */

@@ -7,12 +7,14 @@ const LONGEST = 8_000_000;
 /** Most entries that are listed. */
 const MOST = 400;
 
-export function startOutline(files, editing, ask, { open }) {
+export function startOutline(files, posting, editing, ask, { open }) {
   const list = by("outline");
   let asked = 0;
 
   async function show() {
     const name = editing.current, number = ++asked;
+    await posting.idle();
+    if (number !== asked) return;
     const language = editing.languageOf(name), text = files.text(name);
     const isShown = Boolean(language) && text !== null && text.length <= LONGEST;
     const entries = isShown ? await ask({ do: "outline", ...editing.asked(language, name, text) }).catch(() => []) : [];

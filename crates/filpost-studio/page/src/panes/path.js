@@ -69,19 +69,20 @@ export class PathPane {
     if (report && !this.isStale) this.showTools();
   }
 
-  /** The path of a text as the answer to a request for it; null where there is none. */
+  /** The path of a text as the answer to a request for it; throws where there is none. */
   async columns(texts) {
     const machine = this.posting.machine();
-    if (!machine) return null;
-    const answer = await this.ask({ do: "columns", machine, ...this.posting.tuning(), ...texts });
-    return answer.columns ? this.read(answer) : null;
+    if (!machine) throw new Error("there is no machine");
+    const { columns, errors, misuse } = await this.ask({ do: "columns", machine, ...this.posting.tuning(), ...texts });
+    if (columns) return this.read({ columns });
+    throw new Error(misuse ?? errors.map(({ code, message, places: [place] }) => `${place?.line ? `line ${place.line}: ` : ""}${code} ${message}`).join("\n"));
   }
 
   async show() {
     this.isStale = false;
     const { answer, part } = this.posting, number = ++this.asked;
     const cl = (part && this.files.text(part)) ?? "";
-    const program = answer?.nc === undefined ? null : await this.columns({ nc: answer.nc, cl, cl_name: part });
+    const program = answer?.nc === undefined ? null : await this.columns({ nc: answer.nc, cl, cl_name: part }).catch(() => null);
     if (number !== this.asked) return;
     this.view.setProgram(program);
     await this.showTools();
@@ -108,12 +109,11 @@ export class PathPane {
         await this.files.read(name);
         const text = this.files.text(name);
         second = await this.columns(isCl(name) ? { cl: text, cl_name: name } : { nc: text });
-        if (!second) throw new Error(`${name} has no path on this machine`);
         second.title = name;
       }
     } catch (error) {
       this.second.value = "";
-      tell("The second program can't be shown", error.message);
+      tell(`${name} can't be shown`, error.message);
     }
     this.view?.setSecond(second);
   }

@@ -158,7 +158,7 @@ class View {
   }
 
   /** Shapes of tools beside those of the program: a list of number, diameter, corner, bottom
-   *  (degrees) and length, mm. */
+   *  (degrees), length and holder (diameter and length of each step from below), mm. */
   setTools(tools) {
     if (!this.program) return;
     const given = new Set(tools.map(({ number }) => number));

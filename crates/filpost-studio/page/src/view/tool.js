@@ -23,6 +23,16 @@ function outline({ diameter, corner, bottom }, length) {
   return points;
 }
 
+/** Half of the outline of a holder, diameters and lengths from below, that begins at a height. */
+function steps(holder, height) {
+  const points = [[0, height]];
+  for (const [wide, long] of holder) {
+    points.push([wide / 2, height], [wide / 2, height + long]);
+    height += long;
+  }
+  return [...points, [0, height]];
+}
+
 /** Its outline turned about Z. */
 function turned(points) {
   return new THREE.LatheGeometry(points, ROUND).rotateX(Math.PI / 2);
@@ -63,7 +73,8 @@ export class Tool {
     const known = shape || { diameter: size / 40, corner: 0, bottom: 0, length: null };
     const long = known.length || Math.max(known.diameter * LONG, size / 20), wide = Math.max(known.diameter * 0.9, size / 30);
     this.cutter.geometry = turned(outline(known, long));
-    const arm = [[0, long], [wide, long], [wide, long + wide * 2], [wide * 1.3, long + wide * 2.4], [wide * 1.3, long + wide * 3], [0, long + wide * 3]];
+    const arm = known.holder?.length ? steps(known.holder, long)
+      : [[0, long], [wide, long], [wide, long + wide * 2], [wide * 1.3, long + wide * 2.4], [wide * 1.3, long + wide * 3], [0, long + wide * 3]];
     this.holder.geometry = turned(arm.map(([r, z]) => new THREE.Vector2(r, z)));
   }
 
