@@ -132,6 +132,14 @@ impl Learned {
             undecided.iter().for_each(|setting| text.push_str(&format!("    {setting:?},\n")));
             text.push_str("]\n");
         }
+        let unequal: Vec<String> =
+            self.pairs.iter().filter(|pair| !pair.is_equal).map(LearnedPair::summary).collect();
+        if !unequal.is_empty() {
+            text.push_str(
+                "\n# Programs that come out differently; `filpost post` warns of that.\n",
+            );
+            let _ = writeln!(text, "learned.unequal = {unequal:?}");
+        }
         text
     }
 

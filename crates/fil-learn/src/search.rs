@@ -129,8 +129,11 @@ impl Search<'_, '_> {
             is_new
         });
         states.truncate(READ_OFF);
-        let mut states: Vec<State> =
-            states.into_iter().map(|state| self.options(self.read_off(state))).collect();
+        // An option that helps now may hide what helps more: without it, too.
+        let mut states: Vec<State> = states.into_iter().map(|state| self.read_off(state)).collect();
+        let with_options: Vec<State> =
+            states.iter().map(|state| self.options(state.clone())).collect();
+        states.extend(with_options);
         states.sort_by(|a, b| a.score.total_cmp(&b.score));
         let mut kept: Vec<State> = Vec::new();
         for state in states {

@@ -57,6 +57,23 @@ impl Word {
         if self.letter == 0 { "" } else { &self.text[1..] }
     }
 
+    /// How the number of an address is written, whatever the number is: its letter, its sign,
+    /// zeros in front and behind, and how many digits are after the point.
+    pub fn form(&self) -> u64 {
+        let digits = self.digits();
+        let unsigned = digits.trim_start_matches(['+', '-']).as_bytes();
+        let decimals = unsigned.iter().rev().position(|byte| *byte == b'.');
+        let is = |at: Option<&u8>, byte: u8| u8::from(at == Some(&byte));
+        hash(&[
+            self.letter,
+            u8::from(digits.starts_with('+')),
+            is(unsigned.first(), b'0'),
+            is(unsigned.first(), b'.'),
+            is(unsigned.last(), b'0'),
+            decimals.map_or(u8::MAX, |count| count.min(9) as u8),
+        ])
+    }
+
     /// The number of an address.
     pub fn value(&self) -> Option<f64> {
         self.digits().parse().ok().filter(|_| self.letter != 0)

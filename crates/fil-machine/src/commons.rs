@@ -99,6 +99,8 @@ pub struct Commons {
     allowed_offsets: Vec<String>,
     /// Settings with other values that no proven program tells apart from its own.
     undecided: Vec<String>,
+    /// Proven programs that a learned machine writes differently.
+    unequal: Vec<String>,
     /// Levels of findings that the machine sets.
     levels: Levels,
     /// Options of the post, with their values.
@@ -125,6 +127,7 @@ impl Commons {
             without_effect: Vec::new(),
             allowed_offsets: Vec::new(),
             undecided: Vec::new(),
+            unequal: Vec::new(),
             levels: Levels::default(),
             options: PostOptions::default(),
             effects: Effects::default(),
@@ -250,6 +253,22 @@ impl Commons {
     /// come out the same (`learned.undecided`).
     pub fn undecided(&self) -> &[String] {
         &self.undecided
+    }
+
+    /// Proven programs that the machine was learned from and writes differently, each with how
+    /// much of it comes out (`learned.unequal`).
+    pub fn unequal(&self) -> &[String] {
+        &self.unequal
+    }
+
+    /// Sets which proven programs come out differently.
+    pub fn set_unequal(&mut self, programs: Vec<String>) {
+        self.unequal = programs;
+    }
+
+    /// Nothing of a learned machine is open: each proven program comes out, and decides.
+    pub fn is_proven(&self) -> bool {
+        self.undecided.is_empty() && self.unequal.is_empty()
     }
 
     /// Sets what no proven program decides.

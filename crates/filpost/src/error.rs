@@ -100,9 +100,9 @@ fil_diag::codes! {
         OtherSigns = 757, Warning, "CL text contradicts the chosen dialect",
             "Only one CAM system writes this line, and the dialect of another was chosen; tool axes, cycles and texts may be read wrong.",
             "Choose the dialect of that system, or leave out --dialect.";
-        /// A setting acts that no proven program decides.
-        Undecided = 758, Warning, "no proven program decides this setting",
-            "`filpost learn` found another value just as good: no proven program decides it. Here the setting changes the program.",
+        /// A setting acts that no proven program decides, or a proven program comes out differently.
+        Undecided = 758, Warning, "learned post is not proven here",
+            "`filpost learn` found another value just as good: no proven program decides it. Here the setting changes the program. Or a proven program that the post was learned from comes out differently.",
             "Compare the block with a program of the old post; `filpost learn --check` takes that program as a further pair.";
     }
 }

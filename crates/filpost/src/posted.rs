@@ -165,13 +165,14 @@ pub(crate) struct Again {
 }
 
 impl Again {
-    /// Adds warnings of settings that no proven program decides and that act in this one.
+    /// Adds warnings of settings that no proven program decides and that act in this one, and of
+    /// proven programs that come out differently.
     ///
     /// # Errors
     /// One whose level is deny.
     pub fn warn_of_undecided(&self, cl: &[u8], report: &mut Report) -> Result<(), Error> {
         let Again { program, reading, units, name } = self;
-        if program.commons().undecided().is_empty() {
+        if program.commons().is_proven() {
             return Ok(());
         }
         let start = |program: Program| {

@@ -218,7 +218,7 @@ impl<'o> Run<'o> {
         mut cl: impl Read + Seek + Send,
         nc: impl Write,
     ) -> Result<(Report, PendingFiles), Error> {
-        if self.program.commons().undecided().is_empty() {
+        if self.program.commons().is_proven() {
             return self.run_unwatched(cl, nc);
         }
         let name = self.name();

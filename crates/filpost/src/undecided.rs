@@ -40,14 +40,19 @@ pub(crate) fn warnings(
         search.look(&layer);
     }
     let text = String::from_utf8_lossy(cl);
-    let found = std::mem::take(&mut search.found).into_iter();
-    let warning = |(setting, line): (String, u32)| {
+    let warning = |message: String, line: u32| {
         let statement = text.lines().nth(line.saturating_sub(1) as usize).unwrap_or_default();
-        let message =
-            format!("with {} this would be another program", setting.replace('\n', " and "));
         RunCode::Undecided.diag(message).at(TextSpan::line(name, line, statement))
     };
-    found.map(warning).collect()
+    let unequal = program.commons().unequal();
+    let unequal = (!unequal.is_empty()).then(|| {
+        warning(format!("proven programs come out differently: {}", unequal.join(", ")), 1)
+    });
+    let found = std::mem::take(&mut search.found).into_iter().map(|(setting, line)| {
+        let setting = setting.replace('\n', " and ");
+        warning(format!("with {setting} this would be another program"), line)
+    });
+    unequal.into_iter().chain(found).collect()
 }
 
 /// The settings in lists that have each key once.

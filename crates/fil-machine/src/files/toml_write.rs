@@ -34,6 +34,9 @@ pub fn write_toml(commons: &Commons) -> String {
     if !commons.undecided().is_empty() {
         let _ = writeln!(out, "learned.undecided = {:?}", commons.undecided());
     }
+    if !commons.unequal().is_empty() {
+        let _ = writeln!(out, "learned.unequal = {:?}", commons.unequal());
+    }
     unnamed(commons, &defaults, &mut out);
     levels(commons.levels(), &mut out);
     effects(commons.effects(), &mut out);

@@ -98,9 +98,15 @@ fn learned() -> Value {
         "description": "Settings as KEY=VALUE: with these values the proven programs come out the \
             same. `filpost post` warns where one would change a program.",
     });
+    let programs = json!({
+        "type": "array",
+        "items": {"type": "string"},
+        "description": "Proven programs that come out differently. `filpost post` warns while \
+            there are any.",
+    });
     json!({
         "type": "object",
-        "properties": {"undecided": settings},
+        "properties": {"undecided": settings, "unequal": programs},
         "additionalProperties": false,
     })
 }

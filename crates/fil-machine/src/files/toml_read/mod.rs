@@ -4,7 +4,7 @@
 //! `int.1870 = 1`, `rel.11 = 1.0`, `dbl.486 = 2.0`; `[address.X]` holds `slot`,
 //! `format`, `spec` and `char` of a letter; `blocks.start` and `blocks.end` are
 //! lists of texts, and so are `words.without_effect`, the major words that pass, and
-//! `verify.allowed_offsets`, what a program may choose unasked, and `learned.undecided`; `[levels]` sets levels of codes,
+//! `verify.allowed_offsets`, what a program may choose unasked, and `learned.undecided` and `learned.unequal`; `[levels]` sets levels of codes,
 //! `[effects]` says what blocks of the shop do, `[simulate]` what `filpost simulate` cuts, `[option.NAME]` declares an option of the post and
 //! `[options]` gives values. A flag takes true or false, a letter or character a text of
 //! one character, and every setting takes `"none"` for absent.
@@ -345,9 +345,12 @@ impl<'a> TomlReader<'a> {
         if let Some(simulate) = name.strip_prefix(SIMULATE) {
             return self.simulate(commons, simulate, key, value);
         }
-        if name == "learned.undecided" {
-            let undecided = self.texts_up_to(value, MOST_UNDECIDED, LONGEST_UNDECIDED)?;
-            commons.set_undecided(undecided);
+        if let "learned.undecided" | "learned.unequal" = name {
+            let texts = self.texts_up_to(value, MOST_UNDECIDED, LONGEST_UNDECIDED)?;
+            match name {
+                "learned.undecided" => commons.set_undecided(texts),
+                _ => commons.set_unequal(texts),
+            }
             return Ok(());
         }
         if name == "verify.allowed_offsets" {
