@@ -135,9 +135,9 @@ fil_diag::codes! {
         UnknownLevel = 532, Doubt, "rapid move from an unknown height",
             "A foreign block, a subprogram call or a new work offset came before it, so the tool may be above or below the end point. Z first could plunge, XY first could go through the part.",
             "Before it, put GOHOME, RETRCT, LOADTL, a block to the machine's reference point (G91 G28 Z0.), or RAPID with a GOTO straight up. Before a new work offset, retract with RAPID.";
-        /// A rapid motion at a height that counts from another zero.
-        ShiftedLevel = 533, Warning, "rapid XY move at a Z from another work offset",
-            "The work offset or the tool length offset has changed since the tool went to its height. How far it is above the part depends on the offset tables of the control.",
+        /// A rapid motion at a height that counts from another zero, or that a script has cleared.
+        ShiftedLevel = 533, Warning, "rapid XY move at a Z height in doubt",
+            "The work offset or the tool length offset has changed since the tool went to its height, or a script cleared the last Z after a block that may have moved it. How far it is above the part is not known.",
             "Check that the tool is clear in both offsets, or put GOHOME, RETRCT or LOADTL before the change.";
         /// A feed a turn of a spindle that stands.
         FeedStands = 534, Error, "feed per revolution with the spindle stopped",

@@ -27,3 +27,15 @@ pub fn page(word: &str) -> Option<&'static str> {
     let page = &pages[start..];
     Some(page[1..].find("\n# ").map_or(page, |end| &page[..end + 2]))
 }
+
+/// The forms of a post word, as its page begins: `SPINDL/RPM,s,CLW`. `None` for a word without a page,
+/// or a page without a form.
+pub fn forms(word: &str) -> Option<String> {
+    let begins = format!("- `{}", word.to_ascii_uppercase());
+    let rows = page(word)?.lines().take_while(|line| !line.starts_with("## "));
+    let forms: Vec<&str> = rows
+        .filter(|row| row.starts_with(&begins))
+        .filter_map(|row| row[2..].split(": ").next())
+        .collect();
+    (!forms.is_empty()).then(|| forms.join("; "))
+}

@@ -35,6 +35,9 @@ const KINDS: &[(WordId, CycleKind)] = &[
     (w::MILL, CycleKind::Mill),
 ];
 
+/// What to do with words of cycles that only some controls have: ORIENT and NOREVR of BORE, TLANGL.
+const OF_THE_CONTROL: &str = "Take CYCLE and its GOTOs with a FIL section that writes the control's own cycle, such as G76 for BORE with ORIENT; `filpost explain CYCLE` shows what the post writes.";
+
 /// Takes the cycle, or ends it.
 ///
 /// # Errors
@@ -53,7 +56,10 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     }
     items.flag(w::INIT);
     let cycle = read(post, items)?;
-    items.deny_rest()?;
+    items.deny_rest().map_err(|mut diag| {
+        diag.hint.get_or_insert_with(|| OF_THE_CONTROL.into());
+        diag
+    })?;
     // RAPID right before it is of the way to its first hole, which a cycle makes at rapid.
     post.path.rapid = None;
     cycle::replace(post, Some(cycle))

@@ -6,6 +6,7 @@ use fil_diag::Diag;
 use fil_machine::locations::MESSAGE_TO_TAPE;
 
 use super::Outside;
+use super::told::name_forms;
 use crate::cancel::CancelToken;
 use crate::event::Event;
 use crate::overview::Counted;
@@ -109,7 +110,8 @@ impl Outside<'_, '_> {
             self.take_warnings(Some(&place), vocabulary);
             // The machine itself adds the FIL line to an error.
             let made_by_fil = self.fil_line(record).is_some();
-            let result = result.map_err(|diag| self.name_dialects(diag));
+            let name = vocabulary.name(record.major);
+            let result = result.map_err(|diag| self.name_dialects(name_forms(diag, name)));
             let author = self.post.control.warnings.denied.take();
             let author = author.map(|author| self.place_of_author(author, vocabulary));
             result.map_err(|mut diag| {

@@ -16,6 +16,7 @@ use crate::event::{Event, LineEditor, RunEnd};
 use crate::listing::ListingRules;
 use crate::map;
 use crate::statement::statement_text;
+use crate::word_pages;
 
 impl Outside<'_, '_> {
     /// Tells the warnings of the post, which came at this place; one of a doubt stands at the
@@ -213,4 +214,15 @@ impl Outside<'_, '_> {
         }
         Ok(())
     }
+}
+
+/// Shows the forms of a word whose form is refused, where the refusal has no hint of its own.
+pub(super) fn name_forms(mut diag: Box<Diag>, word: &str) -> Box<Diag> {
+    let form: &Code = PostCode::WordForm.into();
+    if diag.code == form && diag.hint.is_none() {
+        let forms = word_pages::forms(word).map(|forms| format!("Forms: {forms}. "));
+        let forms = forms.unwrap_or_default();
+        diag.hint = Some(format!("{forms}`filpost explain {word}` shows more."));
+    }
+    diag
 }
