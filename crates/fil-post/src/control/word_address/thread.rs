@@ -197,7 +197,7 @@ fn one_block(
     if cuts.taper.abs() > NOTHING {
         line.word('I', cuts.taper, Rounding::Nearest)?;
     }
-    line.word('K', thread.depth, Rounding::Lead)?;
+    line.word('K', thread.depth, Rounding::Rate)?;
     line.word('D', cuts.first, Rounding::Rate)?;
     line.word('A', thread.angle, Rounding::Nearest)?;
     line.lead('F', thread.lead.value)?;
@@ -224,11 +224,11 @@ fn linuxcnc(
     line.word('I', crest - drive, Rounding::Nearest)?;
     line.word('J', (cuts.first * factor).abs(), Rounding::Rate)?;
     line.word('R', 2.0, Rounding::Nearest)?;
-    line.word('K', (root - crest).abs(), Rounding::Lead)?;
+    line.word('K', (root - crest).abs(), Rounding::Rate)?;
     line.word('Q', thread.angle / 2.0, Rounding::Nearest)?;
     line.word('H', f64::from(cuts.springs), Rounding::Exact)?;
     if leaves > 0.0 {
-        line.word('E', leaves, Rounding::Lead)?;
+        line.word('E', leaves, Rounding::Rate)?;
         line.word('L', EXIT, Rounding::Exact)?;
     }
     Ok(line.text)
