@@ -6,7 +6,8 @@
 use super::{ArcSense, AxisRule, CircleForm, DialectRules};
 use crate::errors::ClCode;
 use crate::forms::{FormError, Outcome, Written, common, cycle};
-use crate::record::Word;
+use crate::record::{Record, Word};
+use crate::vocabulary::WordId;
 use crate::words as w;
 
 pub(super) const RULES: DialectRules = DialectRules {
@@ -44,6 +45,7 @@ pub(super) fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
             return Ok(Outcome::Bound);
         }
         w::MODE => return Ok(plane(written)),
+        w::MACHIN => return Ok(unit_of_machin(written)),
         major if written.vocabulary.name(major) == "MOVARC" => return arc(written),
         _ => {}
     }
@@ -72,6 +74,23 @@ fn arc(written: &mut Written<'_>) -> Result<Outcome, FormError> {
 
 /// Items of MOVARC.
 const MOVARC: usize = 9;
+
+/// `MACHIN/name,UNITS,INCHES,OUT,INCHES` gives the unit of the file, where the program is to have
+/// the same one: UNITS comes after it.
+fn unit_of_machin(written: &mut Written<'_>) -> Outcome {
+    let data = &written.record.data;
+    let unit_after = |word: WordId| {
+        let at = data.iter().position(|item| *item == Word::Minor(word))?;
+        data.get(at + 1).filter(|unit| [w::MM, w::INCHES].map(Word::Minor).contains(unit)).copied()
+    };
+    let (unit, out) = (unit_after(w::UNITS), unit_after(w::OUT));
+    let Some(Word::Minor(unit)) = unit.filter(|_| out.is_none() || out == unit) else {
+        return Outcome::Free;
+    };
+    let Ok(record) = Record::builder(w::UNITS).item(unit).build() else { return Outcome::Free };
+    written.made.push(Record { line: written.record.line, ..record });
+    Outcome::Bound
+}
 
 /// MODE/XYPLAN names the plane of the arcs by geometry that follow.
 fn plane(written: &mut Written<'_>) -> Outcome {
