@@ -84,8 +84,9 @@ impl Plot {
         notes.source_name.clone_from(&self.cl_name);
         notes.source = Some(self.cl.clone());
         let mut numbers = HashMap::new();
+        let mut line = 0;
         for origin in &self.origins {
-            let line = origin[0].as_u64().unwrap_or(0) as u32;
+            line = origin[0].as_u64().map_or(line + 1, |line| line as u32);
             let stack = *numbers.entry(origin[2].to_string()).or_insert_with(|| {
                 let stack = self.stack(&origin[2]);
                 if stack.is_empty() {

@@ -29,9 +29,16 @@ pub(crate) fn post(job: &Job, watch: &Watch) -> Value {
         Err(fault) => return refused(&fault, program.warnings()),
     };
     let names = program.fil_files();
+    // Most lines of a long program are of the next record on the next line: a page reads them without an object each.
+    let (mut line, mut record) = (0, 0);
     let origin = |origin: &Origin| {
+        let is_next = (origin.line, origin.record) == (line + 1, record + 1);
+        (line, record) = (origin.line, origin.record);
+        if is_next && origin.fil.is_empty() {
+            return json!(0);
+        }
         let fil = origin.fil.iter().map(|at| json!([names.get(usize::from(at.file)), at.line]));
-        json!([origin.line, origin.record, fil.collect::<Vec<_>>()])
+        json!([line, record, fil.collect::<Vec<_>>()])
     };
     let page = program.nc_page();
     let mut answer = json!({

@@ -22,6 +22,12 @@ fn a_program_comes_with_what_made_its_lines() {
     assert_eq!(origins[raised], json!([2, 2, [["raise.fil", 3]]]));
     let goto = nc.iter().position(|line| line.contains("X1. Y2.")).unwrap();
     assert_eq!(origins[goto], json!([4, 4, []]));
+    // The next record on the next line is said without both.
+    let longer = CL.replace("FINI", "GOTO / 5, 2, 3\nGOTO / 6, 2, 3\nFINI");
+    let longer = ask(&json!({ "do": "post", "ready": "fanuc-mill", "cl": longer }));
+    let at = longer["nc"].as_str().unwrap().lines().position(|line| line.contains("X5.")).unwrap();
+    assert_eq!(longer["origins"][at - 1], json!([4, 4, []]));
+    assert_eq!((&longer["origins"][at], &longer["origins"][at + 1]), (&json!(0), &json!(0)));
     assert_eq!(answer["records"], 5);
     let plot = ask(&json!({
         "do": "plot", "ready": "fanuc-mill", "cl": CL, "nc": answer["nc"], "origins": origins,

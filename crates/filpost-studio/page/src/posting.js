@@ -25,6 +25,7 @@ export class Posting {
     this.recipeOf = async () => null;
     this.answer = null;
     this.lines = [];
+    this.origins = originsOf([]);
     this.isRunning = false;
     /** How much of the CL file the run has read, 0 to 1; null where that is not known. */
     this.share = null;
@@ -141,6 +142,7 @@ export class Posting {
     this.time = time;
     const nc = answer?.nc ?? "";
     this.lines = nc.replaceAll("\r\n", "\n").split("\n");
+    this.origins = originsOf(answer?.origins ?? []);
     this.made = null;
     this.rest();
     this.done.tell();
@@ -148,13 +150,12 @@ export class Posting {
 
   /** What made a line of the program: `{cl, record, fil: [[file, line]]}`; null for none. */
   origin(line) {
-    const found = this.answer?.origins?.[line - 1];
-    return found ? { cl: found[0], record: found[1], fil: found[2] } : null;
+    const { cl, record, fil } = this.origins, at = line - 1;
+    return at in cl ? { cl: cl[at], record: record[at], fil: fil.get(at) ?? [] } : null;
   }
 
   /** The lines of the program that a line of a file made. */
   madeBy(name, line) {
-    if (!this.answer?.origins) return [];
     this.made ??= this.index();
     return this.made.get(`${name}:${line}`) ?? [];
   }
@@ -166,10 +167,20 @@ export class Posting {
       if (!lines) made.set(key, [line]);
       else if (lines.at(-1) !== line) lines.push(line);
     };
-    this.answer.origins.forEach(([cl, , fil], at) => {
-      add(`${this.part}:${cl}`, at + 1);
-      for (const [file, line] of fil) add(`${file}:${line}`, at + 1);
-    });
+    const { cl, fil } = this.origins;
+    cl.forEach((line, at) => add(`${this.part}:${line}`, at + 1));
+    for (const [at, stack] of fil) for (const [file, line] of stack) add(`${file}:${line}`, at + 1);
     return made;
   }
+}
+
+/** What made each line, as an answer says it: CL lines, records, and the FIL lines of those that have some. */
+function originsOf(said) {
+  const cl = new Uint32Array(said.length), record = new Uint32Array(said.length), fil = new Map();
+  said.forEach((origin, at) => {
+    if (origin) [cl[at], record[at]] = origin;
+    else [cl[at], record[at]] = [(cl[at - 1] ?? 0) + 1, (record[at - 1] ?? 0) + 1];
+    if (origin && origin[2].length) fil.set(at, origin[2]);
+  });
+  return { cl, record, fil };
 }
