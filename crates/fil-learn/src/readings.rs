@@ -191,12 +191,20 @@ fn address(
     let digits = |whole: i32, decimals: i32| 10 * whole + decimals;
     let format = match (with_digits, inch) {
         (false, _) => now.format,
+        // Leading zeros of a code or a number do not depend on the unit.
+        (true, _) if form.padded && !form.point => both_whole(now.format, whole),
         (true, true) => 100 * digits(whole, decimals) + now.format % 100,
         (true, false) => now.format / 100 * 100 + digits(whole, decimals),
     };
     let spec = spec.iter().fold(0, |spec, digit| 10 * spec + digit);
     let to = Address { format, spec, ..now };
     (to != now).then_some((Key::Letter(letter), Value::Address(to)))
+}
+
+/// A format with other digits before the point, for inches and for mm.
+fn both_whole(format: i32, whole: i32) -> i32 {
+    let decimals = [format / 100 % 10, format % 10];
+    1000 * whole + 100 * decimals[0] + 10 * whole + decimals[1]
 }
 
 /// Other forms of the numbers of a letter, one digit of the specification each.
