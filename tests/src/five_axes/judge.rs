@@ -96,7 +96,8 @@ fn rounding(post: &Program, metric: bool) -> f64 {
 /// The first target that the tool does not come to, in the order of the program.
 fn missed(post: &Program, lines: &[Line], nc: &str) -> Option<String> {
     let forward = Forward::from_commons(post.commons()).expect("a chain");
-    let events = back_check::events(post.commons(), nc).expect("a program that was read");
+    let program = back_check::both(post.commons(), nc).expect("a program that was read");
+    let events = program.all.events;
     let bound = 0.01_f64.max(rounding(post, !text(lines).contains("INCH")));
     let mut targets = lines.iter().filter_map(|line| line.target).peekable();
     for event in &events {

@@ -194,14 +194,17 @@ impl Expected {
     }
 }
 
-/// The M functions and the speed of a line of Klartext; none of one with a number of block delete,
-/// which is no line of it.
+/// The M functions of a line of Klartext and the speed of a TOOL CALL; none of a line with a number
+/// of block delete, which is no line of it.
 fn functions_of_klartext(line: &[u8]) -> Vec<u8> {
     let is_numbered = line.first() == Some(&b'/') && line.get(1).is_some_and(u8::is_ascii_digit);
     let line = line.strip_prefix(b"/").unwrap_or(line);
     let items = line.split(u8::is_ascii_whitespace).filter(|_| !is_numbered);
+    let calls_tool = items.clone().next() == Some(b"TOOL");
     let is_function = |item: &&[u8]| {
-        matches!(item.first(), Some(b'M' | b'S')) && item[1..].iter().all(u8::is_ascii_digit)
+        let letter = item.first();
+        (letter == Some(&b'M') || calls_tool && letter == Some(&b'S'))
+            && item[1..].iter().all(u8::is_ascii_digit)
     };
     items.filter(is_function).collect::<Vec<_>>().join(&b' ')
 }
