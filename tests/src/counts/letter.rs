@@ -95,6 +95,7 @@ fn of_form(setting: &Setting<'_>, mutant: &Mutant) -> Option<&'static str> {
     let is_in_the_list = statement.items.first().is_some_and(|first| first.start <= mutant.at);
     match statement.major == "CUTTER" && statement.in_comment {
         _ if is_in_the_list => Some("a comma between items that mean nothing"),
+        _ if mutant.was == '/' => Some("the slash of a record that means nothing"),
         true => Some("the form of a comment of Creo whose items mean nothing"),
         false => None,
     }
