@@ -124,7 +124,6 @@ impl FormState {
         self.expects.is_some()
             || self.table.is_in_play()
             || self.told_sweep.is_some()
-            || self.arc_points.is_some()
             || self.spindle_along.is_some()
     }
 }

@@ -30,6 +30,8 @@ pub(crate) struct ArcPoints {
     turned: f64,
     /// Points behind the start.
     count: u32,
+    /// The point right behind the CIRCLE, which is looked at when another follows.
+    first: Option<Vector>,
 }
 
 impl ArcPoints {
@@ -37,12 +39,15 @@ impl ArcPoints {
     /// Z along the axis is free: an arc to another level is a helix.
     fn take(&mut self, point: Vector) -> bool {
         let [from, to] = [self.at, point].map(|point| across(sub(point, self.center), self.axis));
+        if (norm(from) - norm(to)).abs() >= NEAR {
+            return false;
+        }
         let degrees = libm::atan2(dot(self.axis, cross(from, to)), dot(from, to)).to_degrees();
         let slack = (2.0 * NEAR / norm(from).max(NEAR)).to_degrees();
         let is_back = self.count == 0 && degrees.abs() < slack;
         self.turned += if is_back { 360.0 } else { degrees.rem_euclid(360.0) };
         (self.at, self.count) = (point, self.count + 1);
-        (norm(from) - norm(to)).abs() < NEAR && self.turned < 360.0 + slack
+        self.turned < 360.0 + slack
     }
 
     /// A point behind the end of the arc that lies on its circle, less than a quarter turn ahead.
@@ -60,7 +65,7 @@ impl Reader<'_> {
         let start = self.modal.point;
         self.modal.forms.arc_points = circle.zip(start).and_then(|(circle, at)| {
             let axis = unit(circle.axis)?;
-            Some(ArcPoints { center: circle.center, axis, at, turned: 0.0, count: 0 })
+            Some(ArcPoints { center: circle.center, axis, at, turned: 0.0, count: 0, first: None })
         });
     }
 
@@ -99,20 +104,33 @@ impl Reader<'_> {
     /// # Errors
     /// The third one in turn: the arc ends at the first one or the last one.
     pub(super) fn watch_arc_points(&mut self, record: &Record) -> Result<()> {
-        let Some(mut arc) = self.modal.forms.arc_points.take() else { return Ok(()) };
-        let Some(point) = record.point().filter(|_| record.major == words::GOTO) else {
-            return Ok(());
-        };
-        if !(if arc.count == 0 { arc.take(point) } else { arc.goes_on(point) }) {
+        let point = record.point().filter(|_| record.major == words::GOTO);
+        if point.is_some_and(|point| self.follows_arc(point)) {
             return Ok(());
         }
-        if arc.count >= TOO_MANY {
-            return Err(self.arc_error(
-                "three points after a CIRCLE lie on it: points of the arc, or lines after its end?",
-            ));
+        self.modal.forms.arc_points = None;
+        if point.is_none() {
+            return Ok(());
         }
-        self.modal.forms.arc_points = Some(arc);
-        Ok(())
+        Err(self.arc_error(
+            "three points after a CIRCLE lie on it: points of the arc, or lines after its end?",
+        ))
+    }
+
+    /// Takes a point behind a CIRCLE; false for the third one in turn that lies on it.
+    #[inline]
+    pub(super) fn follows_arc(&mut self, point: Vector) -> bool {
+        let Some(mut arc) = self.modal.forms.arc_points else { return true };
+        if arc.count == 0 && arc.first.is_none() {
+            self.modal.forms.arc_points = Some(ArcPoints { first: Some(point), ..arc });
+            return true;
+        }
+        let is_on_it = arc.first.take().is_none_or(|first| arc.take(first)) && arc.goes_on(point);
+        let is_clear = !is_on_it || arc.count < TOO_MANY;
+        if is_clear {
+            self.modal.forms.arc_points = Some(arc).filter(|_| is_on_it);
+        }
+        is_clear
     }
 
     fn arc_error(&self, message: &str) -> Box<Diag> {

@@ -71,7 +71,7 @@ impl Reader<'_> {
             return false;
         };
         let length = text.len() - rest.len();
-        if self.modal.forms.watches_motions() {
+        if self.modal.forms.watches_motions() || !self.follows_arc(point) {
             return false;
         }
         record.line = self.take_lines(length, 1);
