@@ -57,6 +57,8 @@ pub struct Rule {
     pub said: String,
     /// Capital letters without blanks; `*` stands for any characters.
     pattern: String,
+    /// The words of the pattern.
+    words: Vec<String>,
     /// What it does.
     pub effect: Effect,
 }
@@ -97,7 +99,8 @@ impl Effects {
             return false;
         }
         self.rules.retain(|rule| rule.pattern != pattern);
-        self.rules.push(Rule { said: said.trim().to_string(), pattern, effect });
+        let words = words(&pattern).map(str::to_string).collect();
+        self.rules.push(Rule { said: said.trim().to_string(), pattern, words, effect });
         true
     }
 
@@ -118,22 +121,23 @@ impl Effects {
         if self.is_empty() {
             return None;
         }
-        let text = without_number(&plain(block)).to_string();
+        let text = plain(block);
+        let text = without_number(&text);
         let exact = self.rules.iter().find(|rule| rule.pattern == text);
         if let Some(rule) = exact {
             return Some(Found { rule, is_function: false });
         }
-        let words = words(&text);
+        let words: Vec<&str> = words(text).collect();
         let in_block = self.rules.iter().filter_map(|rule| {
-            let named = self::words(&rule.pattern);
-            let is_there = words.windows(named.len().max(1)).any(|run| run == named);
-            is_there.then_some((named.len(), rule))
+            let count = rule.words.len();
+            let is_there = words.windows(count.max(1)).any(|run| run == rule.words);
+            is_there.then_some((count, rule))
         });
         if let Some((_, rule)) = in_block.min_by_key(|(count, _)| *count) {
             return Some(Found { rule, is_function: rule.function().is_some() });
         }
         let patterns = self.rules.iter().filter(|rule| rule.is_pattern());
-        let matching = patterns.filter(|rule| matches(&rule.pattern, &text));
+        let matching = patterns.filter(|rule| matches(&rule.pattern, text));
         let rule = matching.max_by_key(|rule| rule.pattern.len())?;
         Some(Found { rule, is_function: false })
     }
@@ -156,12 +160,16 @@ fn without_number(text: &str) -> &str {
 }
 
 /// The words of a block, each a letter with what follows it. A comment ends them.
-fn words(text: &str) -> Vec<&str> {
-    let text = text.split(['(', ';']).next().unwrap_or_default();
-    let starts: Vec<usize> =
-        text.char_indices().filter(|(_, c)| c.is_ascii_alphabetic()).map(|(at, _)| at).collect();
-    let ends = starts.iter().skip(1).copied().chain([text.len()]);
-    starts.iter().zip(ends).map(|(start, end)| &text[*start..end]).collect()
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    let mut rest = text.split(['(', ';']).next().unwrap_or_default();
+    rest = rest.trim_start_matches(|c: char| !c.is_ascii_alphabetic());
+    std::iter::from_fn(move || {
+        let behind = rest.get(1..)?;
+        let end = behind.find(|c: char| c.is_ascii_alphabetic()).map_or(rest.len(), |at| at + 1);
+        let (word, others) = rest.split_at(end);
+        rest = others;
+        Some(word)
+    })
 }
 
 /// True where `*` of a pattern can stand for characters of the text.

@@ -74,6 +74,9 @@ const STANDARD: &[(i32, Function)] = &[
     (64, Function::PathControl),
 ];
 
+/// G61.1: an exact stop, or smoothing.
+const PATH_CONTROL_IN_TENTHS: i64 = 611;
+
 /// Settings that name codes of tool-tip control, in tenths.
 const TIP_CODES: [(&str, Function); 2] = [
     ("rotary.tip_code", Function::TipControl),
@@ -115,6 +118,7 @@ impl Functions {
         for (code, function) in STANDARD {
             table.add(Some(*code), *function);
         }
+        table.0.entry(PATH_CONTROL_IN_TENTHS).or_insert(Function::PathControl);
         if has_rotary && !lathe {
             table.add_tilts(settings);
         }

@@ -68,7 +68,11 @@ impl Control {
         if self.commons.effects().is_empty() {
             return false;
         }
-        let block = self.read(self.tape.last_line(start, &self.tables));
+        let line = self.tape.last_line(start, &self.tables);
+        if self.commons.effects().of(&line).is_none() {
+            return false;
+        }
+        let block = self.read(line);
         if block.is_said {
             self.learn(&block);
         }
