@@ -4,6 +4,7 @@ use fil_machine::cycle_kind::CycleKind;
 use nalgebra::{Point3, Vector3};
 
 use super::report::FindingKind;
+use crate::dialect::SKIP;
 use crate::forward::Pose;
 use crate::motion::{Compensation, Rate, Speed, Spindle};
 
@@ -320,9 +321,10 @@ pub enum GivenOffset {
 }
 
 impl ExpectedStep {
-    /// A text of an author that begins with the mark of blocks that may be skipped.
-    pub(super) fn has_skip_mark(&self) -> bool {
-        matches!(self, ExpectedStep::Insert { text, .. } if text.trim_start().starts_with('/'))
+    /// A block of INSERT with block delete.
+    pub(super) fn has_block_delete(&self) -> bool {
+        matches!(self, ExpectedStep::Insert { text, .. }
+            if text.trim_start().as_bytes().first() == Some(&SKIP))
     }
 
     /// A line of the tape stands in a block that may be skipped.

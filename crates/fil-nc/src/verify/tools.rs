@@ -12,7 +12,7 @@ impl<C: Steps> Verifier<'_, C> {
         self.memory.initial = None;
         // A text may have changed the tool.
         match self.settings.names_machine_positions() {
-            // No event of the program parts what stands still with one tool from what does with the next.
+            // A change by hand is no event: moves before it and after it look the same.
             _ if by_hand => self.pass_own(),
             true => self.pass_still(cl_line),
             false => {

@@ -64,9 +64,8 @@ fn check_direction(awaited: &Awaited, [from, to]: [Point3<f64>; 2]) -> Result<()
     let off = asked.rem_euclid(180.0);
     let from_z = off.min(180.0 - off);
     let cone = libm::atan2((to.x - from.x).abs(), (to.z - from.z).abs()).to_degrees();
-    let usual = if awaited.on_face { [0.0, 90.0] } else { [0.0, 0.0] };
-    let is_same = |angle: &f64| (from_z - angle).abs() <= SAME_ANGLE;
-    if [cone, usual[0], usual[1]].iter().any(is_same) {
+    let is = |angle: f64| (from_z - angle).abs() <= SAME_ANGLE;
+    if is(cone) || is(0.0) || awaited.on_face && is(90.0) {
         return Ok(());
     }
     PostCode::Thread.err_with(

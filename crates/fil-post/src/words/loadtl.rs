@@ -22,7 +22,7 @@ const MOST: f64 = 1e9;
 /// # Errors
 /// No tool number, or one that does not fit; a tool change in cutter compensation.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
-    let of_tool = items.len() > 1 && items.word_at(items.len() - 1, w::TOOL);
+    let of_tool = (1..items.len()).any(|at| items.word_at(at, w::TOOL));
     let takes_compensation = post.control.can().cutting_edges
         || post.control.commons.read(loc::TOOL_COMPENSATION_OFFSET);
     let offset = match items.couplet(w::OSETNO)? {

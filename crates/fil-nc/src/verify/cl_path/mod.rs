@@ -381,7 +381,7 @@ impl State {
         self.end_thread();
         let numbers = numbers_beside(record, &[w::LENGTH, w::OSETNO, w::ADJUST]);
         let number = *numbers.first()?;
-        let of_tool = matches!(record.data[..], [_, .., fil_cl::Word::Minor(w::TOOL)]);
+        let of_tool = record.data.iter().skip(1).any(|word| *word == fil_cl::Word::Minor(w::TOOL));
         let given = [w::OSETNO, w::ADJUST].into_iter().find_map(|word| record.number_after(word));
         let offset = match given.map(whole) {
             Some(offset) if of_tool => Some(GivenOffset::Compensation(offset?)),

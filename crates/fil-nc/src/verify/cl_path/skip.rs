@@ -39,7 +39,7 @@ impl Opskip {
             steps.iter_mut().for_each(ExpectedStep::mark_as_skipped);
         }
         if self.leaves_out {
-            steps.retain(|step| !step.has_skip_mark());
+            steps.retain(|step| !step.has_block_delete());
         }
         if self.leaves_out_now() {
             let leaves_out = steps.iter().any(ExpectedStep::is_done_once);

@@ -14,7 +14,8 @@ use crate::operation::{OffsetFrom, ToolChange};
 const EDGES: i64 = 9;
 
 /// Changes the tool and takes its cutting edge: that of OSETNO or of its compensation, else the
-/// first. With `control.tool_offsets`, OSETNO is an offset of the machine and no edge. Length and radius come from the control's table with it.
+/// first. With `control.tool_offsets`, OSETNO is an offset of the machine and no edge. Length and
+/// radius come from the control's table with it.
 ///
 /// # Errors
 /// A tool that does not fit; an edge that no tool has.
