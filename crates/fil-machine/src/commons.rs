@@ -403,7 +403,7 @@ fn integer(location: u32, value: f64) -> Result<i32> {
     Ok(value as i32)
 }
 
-/// `G54`, `G54.1P3`, or another letter with a number.
+/// `G54`, `G54.1P3`, `G59.1`, or another letter with a number.
 fn is_offset(name: &str) -> bool {
     let is_number =
         |text: &str| (1..=3).contains(&text.len()) && text.bytes().all(|b| b.is_ascii_digit());
@@ -421,7 +421,7 @@ fn is_offset(name: &str) -> bool {
         && tenth.is_none_or(|tenth| tenth.len() == 1 && is_number(tenth));
     letter.as_bytes()[0].is_ascii_uppercase()
         && is_number(whole)
-        && (is_extended || (extended.is_none() && tenth.is_none()))
+        && (is_extended || extended.is_none())
 }
 
 #[cfg(test)]

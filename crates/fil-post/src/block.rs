@@ -136,6 +136,13 @@ impl Block {
         }
     }
 
+    /// The value of a word that is no function.
+    pub fn value(&self, letter: Letter, addresses: &Addresses) -> Option<f64> {
+        let position = addresses.position(letter)?;
+        let format = addresses.slot(position).format;
+        self.scaled_at(position).map(|scaled| format.unscale(scaled))
+    }
+
     /// Adds a preparatory function with its cause.
     pub fn g(&mut self, code: FunctionCode, cause: Cause) {
         add(&mut self.g, (code, cause));

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::Settings;
 use super::codes::{CycleKind, FeedMode, Function};
 use super::tables::RETURNS_BY_LEVEL;
-use crate::motion::Compensation;
+use crate::motion::{Compensation, offset_in_tenths};
 
 /// G words by their numbers in tenths.
 #[derive(Clone, Debug)]
@@ -232,8 +232,18 @@ impl Functions {
         }
         let tenths =
             settings.code("fixture.extended_code").and_then(|code| u32::try_from(code).ok());
-        if let Some(tenths) = tenths {
-            self.0.entry(i64::from(tenths)).or_insert(Function::NumberedFixture(tenths));
+        let count = settings.code("fixture.extended_count").unwrap_or(0).unsigned_abs();
+        let has_letter = settings.code("fixture.extended_address").is_some();
+        let is_new = |functions: &mut Self, tenths: u32, function| {
+            functions.0.entry(i64::from(tenths)).or_insert(function);
+        };
+        match tenths {
+            Some(tenths) if has_letter => is_new(self, tenths, Function::NumberedFixture(tenths)),
+            // G59.1, G59.2 and so on, codes of their own.
+            Some(first) => (first..first.saturating_add(count)).for_each(|tenths| {
+                is_new(self, tenths, Function::Fixture(offset_in_tenths(tenths)));
+            }),
+            None => {}
         }
     }
 

@@ -7,6 +7,7 @@ use crate::dialect::{Auxiliary, Family, Function, Group, Habit, Role, ToolCall};
 use crate::errors::NcCode;
 use crate::motion::{
     Compensation, DRILLED, Event, FOOT, Modes, Speed, Spindle, StartMode, WORD_OFFSETS,
+    numbered_offset,
 };
 
 pub(super) const H: u8 = letter(b'H');
@@ -72,7 +73,7 @@ impl State<'_> {
                 let number = words.take_whole(self.dialect.letter(Role::FixtureNumber))?;
                 let missing =
                     || Fault::new(NcCode::MissingWord, "the work offset needs its number");
-                self.fixture(tenths * 1000 + number.ok_or_else(missing)?);
+                self.fixture(numbered_offset(tenths, number.ok_or_else(missing)?));
             }
             _ => {}
         }

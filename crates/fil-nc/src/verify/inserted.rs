@@ -7,7 +7,7 @@ use super::settings::{Due, Settings};
 use super::verifier::Verifier;
 use crate::dialect::{Auxiliary, Family, Function, Role};
 use crate::interpret::sinumerik_words::{self, Value};
-use crate::motion::{Compensation, Speed, Spindle};
+use crate::motion::{Compensation, Speed, Spindle, numbered_offset};
 use crate::text::{Block, Word, read_block};
 
 /// The T word of a turning tool is its number times this, and its offset.
@@ -133,7 +133,7 @@ impl Expected {
             Function::Fixture(code) => self.fixture.must = Some(Some(code)),
             Function::NumberedFixture(tenths) => {
                 let number = whole(printed(settings.dialect.letter(Role::FixtureNumber)));
-                self.fixture.must = number.map(|number| Some(tenths * 1000 + number));
+                self.fixture.must = number.map(|number| Some(numbered_offset(tenths, number)));
             }
             Function::Compensation(side) => {
                 let offset = whole(printed(settings.dialect.letter(Role::ToolOffset)));

@@ -214,7 +214,7 @@ impl Control {
         let offsets = self.state.get(modal::ASKED_OFFSET).zip(self.state.get(modal::WORK_OFFSET));
         if let Some((asked, now)) = offsets.filter(|(asked, now)| asked != now) {
             let message =
-                format!("the CL file asks for work offset G{asked}, and a block has G{now}");
+                format!("the CL file asks for work offset {asked}, and a block has {now}");
             self.warnings.add(PostCode::OtherOffset, message);
         }
     }

@@ -11,7 +11,7 @@ use fil_machine::modes::FeedMode;
 use fil_machine::setting::CodeAt;
 use fil_machine::{Commons, FunctionCode, Letter, letters};
 
-use super::{MachineSpot, Rotation, functions, length};
+use super::{MachineSpot, Rotation, WorkOffset, functions, length};
 
 /// G34 and G35 of a SINUMERIK: threading moves whose lead grows, and shrinks.
 pub const VARYING_LEADS_OF_SINUMERIK: [FunctionCode; 2] =
@@ -34,6 +34,8 @@ pub struct Codes {
     dialect: Dialect,
     /// The lowest and the highest code of the work offsets.
     offsets: Option<(FunctionCode, FunctionCode)>,
+    /// The letter of the number beside the code of a further work offset.
+    offset_letter: Option<Letter>,
     /// The machine has canned cycles that a code ends.
     has_cycle_end: bool,
     /// The tool length offset is activated by a code.
@@ -80,6 +82,7 @@ impl Codes {
             auxiliary,
             preparatory,
             dialect,
+            offset_letter: commons.read(loc::FIXTURE_EXTENDED_ADDRESS),
             offsets: code(loc::FIXTURE_MIN_CODE).zip(code(loc::FIXTURE_MAX_CODE)),
             has_cycle_end: commons.read(loc::CYCLE_OFF_CODE).is_some(),
             calls_lengths,
@@ -170,6 +173,21 @@ impl Codes {
     /// True for a code that chooses a work offset, by itself or by a word beside it.
     pub fn chooses_offset(&self, code: FunctionCode) -> bool {
         matches!(self.meaning(code), Meaning::Origin(origin) if origin.is_offset())
+    }
+
+    /// The work offset that a code chooses; `word` gives the value of a word beside it. `None` for
+    /// a code that chooses none.
+    pub fn work_offset(
+        &self,
+        code: FunctionCode,
+        word: impl Fn(Letter) -> Option<f64>,
+    ) -> Option<WorkOffset> {
+        let number = match self.meaning(code) {
+            Meaning::Origin(Origin::WorkOffset) => None,
+            Meaning::Origin(Origin::NumberedOffset) => self.offset_letter.and_then(word),
+            _ => return None,
+        };
+        Some(WorkOffset { code, number: number.map(|number| number as i32) })
     }
 
     /// True for a code that activates the tool length offset.

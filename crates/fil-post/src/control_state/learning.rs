@@ -1,8 +1,8 @@
 //! What the control learns from the functions and words of a block.
 
 use fil_machine::address::Addresses;
-use fil_machine::functions::{Origin, SpeedMode};
-use fil_machine::{FunctionCode, letters};
+use fil_machine::functions::SpeedMode;
+use fil_machine::{FunctionCode, Letter, letters};
 
 use super::modal::{
     CUTTER_COMP, CUTTER_PATH, CYCLE, CYCLE_CODE, DIAMETER_MODE, DISTANCE, FEED_MODE, LENGTH_WORD,
@@ -17,7 +17,8 @@ impl ControlState {
     pub fn learn_block(&mut self, block: &Block, codes: &Codes, addresses: &Addresses) {
         if !block.g_codes().is_empty() {
             for (code, _) in block.g_codes() {
-                self.learn_code(*code, codes, Source::Post);
+                let word = |letter| block.value(letter, addresses);
+                self.learn_code(*code, codes, Source::Post, word);
             }
         }
         for (code, _) in block.m_codes() {
@@ -37,9 +38,15 @@ impl ControlState {
         letters.for_each(|letter| self.doubts.remove(letter));
     }
 
-    /// Learns what a preparatory function does.
+    /// Learns what a preparatory function does; `word` gives the value of a word of its block.
     #[inline]
-    pub fn learn_code(&mut self, code: FunctionCode, codes: &Codes, source: Source) {
+    pub fn learn_code(
+        &mut self,
+        code: FunctionCode,
+        codes: &Codes,
+        source: Source,
+        word: impl Fn(Letter) -> Option<f64>,
+    ) {
         match codes.meaning(code) {
             Meaning::Motion(_) => {
                 self.set(MOTION, code);
@@ -118,8 +125,8 @@ impl ControlState {
             }
             Meaning::Origin(origin) => {
                 self.doubt_axes();
-                if origin == Origin::WorkOffset {
-                    self.set(WORK_OFFSET, code);
+                if let Some(offset) = codes.work_offset(code, word) {
+                    self.set(WORK_OFFSET, offset);
                 } else if !origin.keeps_offset() {
                     self.forget(WORK_OFFSET, source);
                 }

@@ -15,6 +15,7 @@ mod levels;
 pub mod modal;
 mod others;
 mod skip;
+mod work_offset;
 
 pub use codes::{Codes, THREAD_OF_OSP, VARYING_LEADS_OF_SINUMERIK};
 pub use fil_machine::functions::Meaning;
@@ -34,6 +35,7 @@ use modal::{
     SPINDLE, SURFACE_SPEED, TOOL, UNITS,
 };
 pub use modal::{Know, Source};
+pub use work_offset::WorkOffset;
 
 /// Where the path stands in cutter compensation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,7 +9,7 @@ use std::marker::PhantomData;
 use fil_machine::FunctionCode;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 
-use super::{Compensation, CutterPath, Distance, Length, Rotation};
+use super::{Compensation, CutterPath, Distance, Length, Rotation, WorkOffset};
 pub use usual::GroupSet;
 use usual::is_usual;
 
@@ -98,6 +98,8 @@ pub enum Value {
     Rotation(Rotation),
     /// G43, G49.
     Length(Length),
+    /// G54, G54.1 P3.
+    Offset(WorkOffset),
 }
 
 /// A type that a modal group holds.
@@ -138,7 +140,8 @@ modal!(
     Compensation(Compensation),
     CutterPath(CutterPath),
     Rotation(Rotation),
-    Length(Length)
+    Length(Length),
+    Offset(WorkOffset)
 );
 
 /// What a block that can't be read leaves of a group.
@@ -244,10 +247,10 @@ groups! {
     LENGTH_OFFSET / LengthOffset: i64 = NEVER, Unknown;
     /// An author named a tool length offset, or canceled it.
     LENGTH_WORD / LengthWord: bool = NEVER, Kept;
-    /// The code of the work offset (G54).
-    WORK_OFFSET / WorkOffset: FunctionCode = NEVER, Unknown;
-    /// The code of the work offset that the CL file asked for.
-    ASKED_OFFSET / AskedOffset: FunctionCode = NEVER, Kept;
+    /// The work offset (G54).
+    WORK_OFFSET / WorkOffset: WorkOffset = NEVER, Unknown;
+    /// The work offset that the CL file asked for.
+    ASKED_OFFSET / AskedOffset: WorkOffset = NEVER, Kept;
     /// How the spindle was last told to turn.
     SPINDLE / Spindle: Rotation = Know::Known(Value::Rotation(Rotation::Unsaid)), By(rotation_unread);
     /// M0 or M1 came since the spindle was turned: some machines stop it.

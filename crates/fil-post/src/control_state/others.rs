@@ -10,7 +10,9 @@ use super::modal::{
     CYCLE, DISTANCE, LENGTH, LENGTH_OFFSET, MOTION, NAMED_TOOL, SPINDLE, TOOL, TOOL_CHANGED,
     TOOL_WORD, UNITS, WORK_OFFSET, WORK_PLANE,
 };
-use super::{AXIS_LETTERS, Codes, ControlState, Distance, Length, Meaning, Rotation, Source};
+use super::{
+    AXIS_LETTERS, Codes, ControlState, Distance, Length, Meaning, Rotation, Source, WorkOffset,
+};
 
 /// What preparatory functions of others do to where the axes stand.
 #[derive(Clone, Copy, Debug, Default)]
@@ -38,12 +40,16 @@ struct Ways {
 }
 
 impl Ways {
-    fn of(words: &[(Letter, f64)], codes: &Codes, fixture: Option<FunctionCode>) -> Self {
+    fn of(words: &[(Letter, f64)], codes: &Codes, in_force: Option<WorkOffset>) -> Self {
         let mut ways = Ways::default();
         for (letter, value) in words {
             match (*letter, FunctionCode::of_value(*value)) {
-                (letters::G, Some(code)) if Some(code) == fixture => {}
-                (letters::G, Some(code)) => ways.add(code, codes),
+                (letters::G, Some(code)) => {
+                    let offset = codes.work_offset(code, |letter| word(words, letter));
+                    if offset.is_none() || offset != in_force {
+                        ways.add(code, codes);
+                    }
+                }
                 (letters::M, Some(code)) => ways.changes |= codes.does(code, Meaning::ToolChange),
                 (letters::T, _) => ways.changes |= codes.tool_word_changes,
                 _ => {}
@@ -70,6 +76,11 @@ impl Ways {
             _ => {}
         }
     }
+}
+
+/// The value of the last word with a letter.
+fn word(words: &[(Letter, f64)], letter: Letter) -> Option<f64> {
+    words.iter().rev().find(|word| word.0 == letter).map(|word| word.1)
 }
 
 fn is_axis(letter: Letter) -> bool {
@@ -116,7 +127,10 @@ impl ControlState {
         let ways = Ways::of(words, codes, self.get(WORK_OFFSET));
         for (letter, value) in words {
             match (*letter, FunctionCode::of_value(*value)) {
-                (letters::G, Some(code)) => self.learn_code(code, codes, Source::Author),
+                (letters::G, Some(code)) => {
+                    let word = |letter| word(words, letter);
+                    self.learn_code(code, codes, Source::Author, word);
+                }
                 (letters::M, Some(code)) => self.learn_auxiliary(code, codes, Source::Author),
                 (letters::G | letters::M, None) => self.doubt_all(Source::Author),
                 (letters::T, _) => self.names_tool(*value, codes),
@@ -140,7 +154,8 @@ impl ControlState {
             let words = words.iter().filter(move |(letter, _)| *letter == kind);
             words.filter_map(|(_, value)| FunctionCode::of_value(*value))
         };
-        of(letters::G).for_each(|code| self.learn_code(code, codes, Source::Author));
+        let word = |letter| word(words, letter);
+        of(letters::G).for_each(|code| self.learn_code(code, codes, Source::Author, word));
         of(letters::M).for_each(|code| self.learn_auxiliary(code, codes, Source::Author));
         let calls = of(letters::G)
             .any(|code| matches!(codes.meaning(code), Meaning::LengthOffset(_) | Meaning::Tcpc));

@@ -1,12 +1,13 @@
 //! What the CL file has said so far, and where it has brought the tool.
 
+use fil_machine::Unit;
 use fil_machine::axis_chain::Turn;
-use fil_machine::{FunctionCode, Unit};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::arc_parts::Rest;
 use super::{Coming, NamedFrames, Statement, Transformation, sense};
 use crate::cause::Cause;
+use crate::control_state::WorkOffset;
 use crate::operation::cycle::{AboveHoles, Cycle};
 use crate::operation::{Arc, Feed, Lead, NextTools, Operation, SpindleSpeed, Target, Thread};
 use fil_machine::axes::Position;
@@ -309,7 +310,7 @@ pub(crate) struct TurnedWith {
     pub(super) tool: Option<i64>,
     /// The tool for which levels of the machine's Z were counted while a head leaned it.
     pub(super) tool_of_levels: Option<i64>,
-    pub(super) zero: Option<FunctionCode>,
+    pub(super) zero: Option<WorkOffset>,
     /// A head has turned the tool across Z, and so it was said of its length.
     pub(super) lies_across: bool,
 }

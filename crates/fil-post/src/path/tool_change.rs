@@ -71,7 +71,7 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
         if wanted.by_hand || !is_first {
             way_home::switch_off_for_change(control, wanted.by_hand)?;
         }
-        go_to_change_position(control, cause)?;
+        control.tip.is_away |= go_to_change_position(control, cause)? || !wanted.by_hand;
         match (wanted.by_hand, is_first) {
             (true, _) => way_home::stop_for_operator(control, wanted.tool),
             (false, true) => Ok(()),
@@ -79,7 +79,6 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
         }
     })?;
     way_home::write_held(control)?;
-    control.tip.is_away = true;
     control.tape.align();
     control.family().change_tool(control, wanted)?;
     write_blocks(control, around[1])?;
@@ -162,10 +161,10 @@ fn write_blocks(control: &mut Control, list: UserBlocks) -> Result<()> {
 }
 
 /// Goes to the machine's change position before the change (INTCOM 1872,
-/// DBLCOM 604–609); coordinates that are absent stay where they are.
-fn go_to_change_position(control: &mut Control, cause: Cause) -> Result<()> {
+/// DBLCOM 604–609); coordinates that are absent stay where they are. True where Z goes there.
+fn go_to_change_position(control: &mut Control, cause: Cause) -> Result<bool> {
     let axes = match control.commons.read(loc::TOOL_CHANGE_BLOCK) {
-        ToolChangeBlock::None => return Ok(()),
+        ToolChangeBlock::None => return Ok(false),
         ToolChangeBlock::Xyz => &loc::CHANGE_POSITION[..3],
         ToolChangeBlock::XyzAndRotary => &loc::CHANGE_POSITION[..],
     };
@@ -180,8 +179,10 @@ fn go_to_change_position(control: &mut Control, cause: Cause) -> Result<()> {
     }
     let motion = Motion::new(position, moving, 0);
     if machine_frame::is_meant(control) {
-        return machine_frame::go(control, &motion, Before::ToolChange, cause);
+        machine_frame::go(control, &motion, Before::ToolChange, cause)?;
+    } else {
+        control.tables.check_travel(&position, moving)?;
+        rapid::to_machine_position(control, &motion, cause)?;
     }
-    control.tables.check_travel(&position, moving)?;
-    rapid::to_machine_position(control, &motion, cause)
+    Ok(moving.has(2))
 }

@@ -3,13 +3,12 @@
 //! stated once.
 
 use fil_diag::Result;
-use fil_machine::FunctionCode;
 use fil_machine::axis_chain::Carries;
 use fil_machine::locations as loc;
 
 use super::{Transformation, frame, rapid_lean};
 use crate::control::Control;
-use crate::control_state::modal;
+use crate::control_state::{WorkOffset, modal};
 use crate::errors::PostCode;
 use crate::post::Post;
 use fil_machine::modes::Plane;
@@ -112,9 +111,10 @@ fn warn_of_length_across(post: &mut Post, angles: [f64; 2]) {
 }
 
 /// The work offset in force; before the program has said one, the first that the machine has.
-fn zero(control: &Control) -> Option<FunctionCode> {
+fn zero(control: &Control) -> Option<WorkOffset> {
     let is_unsaid = !control.state.has_doubts();
-    let first = || control.code_if_any(loc::FIXTURE_MIN_CODE).filter(|_| is_unsaid);
+    let first =
+        || control.code_if_any(loc::FIXTURE_MIN_CODE).filter(|_| is_unsaid).map(WorkOffset::plain);
     control.state.get(modal::WORK_OFFSET).or_else(first)
 }
 

@@ -2,7 +2,6 @@
 //! coolant and spindle off, and the way to its home position.
 
 use fil_diag::Result;
-use fil_machine::FunctionCode;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations::{self as loc, ProgramEndBlock, ToolChangeStop};
 use fil_machine::setting::CodeAt;
@@ -11,7 +10,7 @@ use super::{height, machine_position};
 use crate::control::machine_frame::Before;
 use crate::control::word_address::{coolant, cycle, fixture, spindle};
 use crate::control::{Control, Held, family, full_turn, program};
-use crate::control_state::{Source, modal};
+use crate::control_state::{Source, WorkOffset, modal};
 use crate::operation::motion::{Motion, RapidCode};
 use crate::operation::{Coolant, Operation, Spindle, Stop};
 use crate::post::Post;
@@ -119,7 +118,7 @@ pub(super) fn restate(control: &mut Control) -> Result<()> {
         return Ok(());
     }
     match (offset_of_author(control), work_offset_in_force(control)) {
-        (Some(code), _) => fixture::restate(control, code),
+        (Some(offset), _) => fixture::restate(control, offset),
         (None, Some(number)) => control.family().write(control, Operation::WorkOffset(number)),
         (None, None) => Ok(()),
     }
@@ -133,9 +132,9 @@ fn work_offset_in_force(control: &Control) -> Option<Option<i64>> {
 }
 
 /// The work offset in force, if a block of the author has chosen it.
-fn offset_of_author(control: &Control) -> Option<FunctionCode> {
-    let code = control.state.get(modal::WORK_OFFSET)?;
-    (control.state.get(modal::ASKED_OFFSET) != Some(code)).then_some(code)
+fn offset_of_author(control: &Control) -> Option<WorkOffset> {
+    let offset = control.state.get(modal::WORK_OFFSET)?;
+    (control.state.get(modal::ASKED_OFFSET) != Some(offset)).then_some(offset)
 }
 
 /// Takes a work offset; before another one the tool goes up, where the machine asks for it. The

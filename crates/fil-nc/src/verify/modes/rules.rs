@@ -4,7 +4,7 @@ use super::super::report::FindingKind;
 use super::super::say::short;
 use super::super::settings::{Quantity, Tolerances};
 use super::Expected;
-use crate::motion::{Compensation, Modes, Speed, Spindle, WORD_OFFSETS};
+use crate::motion::{Compensation, Modes, Speed, Spindle, name_of_offset};
 
 /// Allowed deviation of an oriented spindle, degrees.
 const ANGLE: f64 = 6e-4;
@@ -180,7 +180,7 @@ fn work_offset(expected: &Expected, seen: &Seen) -> Option<String> {
     let must = expected.fixture.must.filter(|must| *must != found)?;
     let is_allowed = !expected.fixture.is_asked
         && found.is_some_and(|found| expected.fixture.allowed.contains(&found));
-    let name = |fixture: Option<u32>| fixture.map_or("none".to_string(), name_of_fixture);
+    let name = |fixture: Option<u32>| fixture.map_or("none".to_string(), name_of_offset);
     (!is_allowed).then(|| format!("work offset {}, it should be {}", name(found), name(must)))
 }
 
@@ -241,16 +241,5 @@ fn name_of_turn(turn: Spindle) -> &'static str {
         Spindle::Off => "off",
         Spindle::Clockwise => "clockwise",
         Spindle::Counterclockwise => "counterclockwise",
-    }
-}
-
-fn name_of_fixture(fixture: u32) -> String {
-    match fixture {
-        0..1000 => format!("G{fixture}"),
-        1000..WORD_OFFSETS => {
-            let (tenths, number) = (fixture / 1000, fixture % 1000);
-            format!("G{}.{} P{number}", tenths / 10, tenths % 10)
-        }
-        _ => format!("number {}", fixture - WORD_OFFSETS),
     }
 }

@@ -10,7 +10,7 @@ use fil_machine::user_blocks;
 
 use super::{Due, Settings, due};
 use crate::dialect::{self, Function};
-use crate::motion::{Spindle, WORD_OFFSETS};
+use crate::motion::{Spindle, WORD_OFFSETS, numbered_offset, offset_in_tenths};
 use crate::text::read_block;
 use crate::verify::expected_step::{CoolantKind, End, SpindleRange};
 
@@ -210,9 +210,18 @@ impl Settings<'_> {
         if (1..=plain).contains(&index) {
             return Some(first + index - 1);
         }
+        if (first..=last).contains(&index) {
+            return Some(index);
+        }
         match self.commons.int_opt(loc::FIXTURE_EXTENDED_CODE).filter(|tenths| *tenths > 0) {
-            Some(tenths) => Some(tenths.unsigned_abs() * 1000 + index.checked_sub(plain)?),
-            None => (first..=last).contains(&index).then_some(index),
+            Some(tenths) => {
+                let further = index.checked_sub(plain).filter(|further| *further > 0)?;
+                Some(match self.commons.read(loc::FIXTURE_EXTENDED_ADDRESS) {
+                    Some(_) => numbered_offset(tenths.unsigned_abs(), further),
+                    None => offset_in_tenths(tenths.unsigned_abs() + further - 1),
+                })
+            }
+            None => None,
         }
     }
 

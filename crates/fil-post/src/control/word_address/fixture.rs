@@ -1,6 +1,6 @@
 //! Work offsets: G54 to G59, G54.1 P, or a word.
 
-use fil_diag::Result;
+use fil_diag::{Diag, Result};
 use fil_machine::FunctionCode;
 use fil_machine::contradictions;
 use fil_machine::locations::{self as loc, FixtureForm, Placement};
@@ -10,7 +10,7 @@ use fil_machine::setting::CodeAt;
 use super::cycle;
 use crate::control::needs::Act;
 use crate::control::{Control, Function};
-use crate::control_state::{Source, modal};
+use crate::control_state::{Source, WorkOffset, modal};
 use crate::errors::PostCode;
 
 /// Writes a work offset, in a block of its own or with the next motion. Where the axes
@@ -59,9 +59,12 @@ pub(in crate::control) fn write_code(control: &mut Control, code: FunctionCode) 
 ///
 /// # Errors
 /// Cutter compensation.
-pub(crate) fn restate(control: &mut Control, code: FunctionCode) -> Result<()> {
+pub(crate) fn restate(control: &mut Control, offset: WorkOffset) -> Result<()> {
     prepare(control)?;
-    control.g(code);
+    control.g(offset.code);
+    if let Some(number) = offset.number {
+        number_word(control, i64::from(number))?;
+    }
     control.write_block()
 }
 
@@ -78,12 +81,13 @@ pub(in crate::control) fn prepare(control: &mut Control) -> Result<()> {
 
 /// Writes the offset in the block under construction, or keeps it for a motion.
 fn place(control: &mut Control) -> Result<()> {
-    let in_force = control.state.get(modal::WORK_OFFSET);
-    let stays = control.block.g_codes().iter().any(|(code, _)| Some(*code) == in_force);
+    let word = |letter| control.block.value(letter, &control.tables.addresses);
+    let codes = || control.block.g_codes().iter().rev();
+    let asked = codes().find_map(|(code, _)| control.codes.work_offset(*code, word));
+    let stays = asked.is_some() && asked == control.state.get(modal::WORK_OFFSET);
     counts_anew(control, stays);
-    let asked = control.block.g_codes().last().map(|(code, _)| *code);
-    if let Some(code) = asked {
-        control.state.set(modal::ASKED_OFFSET, code);
+    if let Some(offset) = asked {
+        control.state.set(modal::ASKED_OFFSET, offset);
     }
     match control.commons.read(loc::FIXTURE_PLACEMENT) {
         Placement::BlockOfItsOwn => {
@@ -107,8 +111,8 @@ fn has_no_plain(control: &Control) -> bool {
     matches!(bounds, [Some(first), Some(last)] if last < first) && has_further
 }
 
-/// Adds the code of an offset: the n-th from the lowest one, a further one with its own
-/// number, or the offset whose code the number is.
+/// Adds the code of an offset: the n-th from the lowest one, the offset whose code the number is,
+/// or a further one with its own number.
 ///
 /// # Errors
 /// The machine has no such offset.
@@ -120,30 +124,51 @@ fn code(control: &mut Control, index: i64) -> Result<()> {
             .err("the machine has no code for a work offset (INTCOM 3429 and 3430)");
     };
     let plain = last - first + 1;
-    let extended = control.commons.int_opt(loc::FIXTURE_EXTENDED_CODE).filter(|code| *code > 0);
-    let whole = |code: i64| i32::try_from(code).ok().and_then(FunctionCode::of_setting);
-    if let Some(code) = whole(first + index - 1).filter(|_| (1..=plain).contains(&index)) {
-        refuse_other_function(control, first + index - 1)?;
+    let named = match index {
+        _ if (1..=plain).contains(&index) => Some(first + index - 1),
+        _ if (first..=last).contains(&index) => Some(index),
+        _ => None,
+    };
+    if let Some(number) = named {
+        refuse_other_function(control, number)?;
+        let code = i32::try_from(number).ok().and_then(FunctionCode::of_setting);
+        let code = code.ok_or_else(|| unknown(index))?;
         control.g(code);
         return Ok(());
     }
     let count = i64::from(control.commons.int_opt(loc::FIXTURE_EXTENDED_COUNT).unwrap_or(0));
+    let extended = control.commons.int_opt(loc::FIXTURE_EXTENDED_CODE).filter(|code| *code > 0);
     match extended {
         Some(tenths) if (1..=count).contains(&(index - plain)) => {
-            let letter = control.letter(loc::FIXTURE_EXTENDED_ADDRESS, "a further work offset")?;
-            control.g(FunctionCode::tenths(tenths.unsigned_abs()));
-            return control.word_rounded(letter, (index - plain) as f64, Rounding::Exact);
+            further(control, tenths.unsigned_abs(), index - plain)
         }
-        None if (first..=last).contains(&index) => {
-            if let Some(code) = whole(index) {
-                refuse_other_function(control, index)?;
-                control.g(code);
-                return Ok(());
-            }
-        }
-        _ => {}
+        _ => Err(unknown(index)),
     }
-    PostCode::WordForm.err(format!("SET: the machine has no work offset {index}"))
+}
+
+fn unknown(index: i64) -> Box<Diag> {
+    PostCode::WordForm.diag(format!("SET: the machine has no work offset {index}"))
+}
+
+/// Adds the n-th further offset: its code with the number, or a code of its own of a control that
+/// has no letter for the number (G59.1 and the tenths behind it).
+fn further(control: &mut Control, tenths: u32, number: i64) -> Result<()> {
+    match control.commons.read(loc::FIXTURE_EXTENDED_ADDRESS) {
+        Some(_) => {
+            control.g(FunctionCode::tenths(tenths));
+            number_word(control, number)
+        }
+        None => {
+            control.g(FunctionCode::tenths(tenths + number as u32 - 1));
+            Ok(())
+        }
+    }
+}
+
+/// Adds the number beside the code of a further offset.
+fn number_word(control: &mut Control, number: i64) -> Result<()> {
+    let letter = control.letter(loc::FIXTURE_EXTENDED_ADDRESS, "a further work offset")?;
+    control.word_rounded(letter, number as f64, Rounding::Exact)
 }
 
 /// Refuses a number between those of the work offsets that means something else on this machine.

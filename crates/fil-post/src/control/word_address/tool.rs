@@ -57,10 +57,14 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
         tool_and_offset(control, wanted)?;
         restate(control);
     } else {
-        if !wanted.by_hand {
+        if wanted.by_hand {
+            // Nothing but the operator moves the machine.
+            control.state.doubt_axes();
+            control.state.forget(modal::MOTION, Source::Post);
+        } else {
             tool_blocks(control, wanted.tool)?;
+            restate(control);
         }
-        restate(control);
         control.because(wanted.causes[1], |control| length_offset(control, wanted, before))?;
     }
     control.state.has_tool(Some(wanted.tool));
