@@ -28,6 +28,12 @@ pub fn page(word: &str) -> Option<&'static str> {
     Some(page[1..].find("\n# ").map_or(page, |end| &page[..end + 2]))
 }
 
+/// True where the page of a post word names another word, or the post word has no page.
+pub fn names(word: &str, other: &str) -> bool {
+    let names = |page: &str| page.split(|c: char| !c.is_alphanumeric()).any(|it| it == other);
+    page(word).is_none_or(names)
+}
+
 /// The forms of a post word, as its page begins: `SPINDL/RPM,s,CLW`. `None` for a word without a page,
 /// or a page without a form.
 pub fn forms(word: &str) -> Option<String> {

@@ -3,6 +3,7 @@
 use fil_cl::record::FIRST_DATA;
 use fil_diag::Result;
 use fil_machine::locations as loc;
+use fil_machine::modes::FeedMode;
 use nalgebra::{Point3, Vector3};
 
 use super::{csys, home};
@@ -98,8 +99,8 @@ pub fn straight(post: &mut Post, target: Target) -> Result<()> {
     }
 }
 
-/// Warns of a motion at feed while the spindle of a mill is known to stand, once for each tool.
-/// A lathe feeds so to pull bar and to part off.
+/// Warns of a motion at feed while the spindle is known to stand, once for each tool. A lathe feeds
+/// by the minute so to pull bar and to part off; by the revolution it would wait for the spindle.
 #[inline]
 fn warn_of_standing_spindle(post: &mut Post) {
     if !post.control.state.groups().are_usual(OF_SPINDLE) {
@@ -112,22 +113,31 @@ const OF_SPINDLE: GroupSet = GroupSet::of(&[Group::Spindle, Group::SpindleHalted
 
 #[cold]
 fn warn_if_it_stands(post: &mut Post) {
-    if post.control.state.rotation() == Rotation::Standing {
-        warn_where_it_mills(post);
+    if matches!(post.control.state.rotation(), Rotation::Standing | Rotation::Unsaid) {
+        warn_where_it_must_turn(post);
     } else if post.control.state.may_be(modal::SPINDLE_HALTED, true) {
         warn_behind_stop(post);
     }
 }
 
 #[cold]
-fn warn_where_it_mills(post: &mut Post) {
+fn warn_where_it_must_turn(post: &mut Post) {
     let control = &post.control;
-    if !spindle::stands(control) || control.commons.read(loc::LATHE_DIAMETER) {
+    let must_turn = match control.commons.read(loc::LATHE_DIAMETER) {
+        true => !control.spindle.side_turns && turns_its_feed(post),
+        false => control.state.rotation() == Rotation::Standing,
+    };
+    if !must_turn || spindle::waits(control) {
         return;
     }
     let tool =
         control.state.get(modal::TOOL).map(|tool| format!(" of tool {tool}")).unwrap_or_default();
     post.warn(PostCode::SpindleStands, format!("a feed move{tool}: the spindle is stopped"));
+}
+
+/// The feed is one for each turn of the spindle.
+fn turns_its_feed(post: &Post) -> bool {
+    post.path.feed.is_some_and(|feed| feed.mode == FeedMode::PerRevolution)
 }
 
 /// Warns of a motion at feed behind a stop of the program, which stops the spindle on some

@@ -216,10 +216,18 @@ impl Outside<'_, '_> {
     }
 }
 
-/// Shows the forms of a word whose form is refused, where the refusal has no hint of its own.
+/// Shows the forms of a word whose form is refused, where the refusal has no hint of its own, or one
+/// that names a word which has no place in them.
 pub(super) fn name_forms(mut diag: Box<Diag>, word: &str) -> Box<Diag> {
     let form: &Code = PostCode::WordForm.into();
-    if diag.code == form && diag.hint.is_none() {
+    if diag.code != form {
+        return diag;
+    }
+    let fits = |hint: &str| match hint.strip_prefix("did you mean ") {
+        Some(meant) => word_pages::names(word, meant.trim_end_matches('?')),
+        None => true,
+    };
+    if !diag.hint.as_deref().is_some_and(fits) {
         let forms = word_pages::forms(word).map(|forms| format!("Forms: {forms}. "));
         let forms = forms.unwrap_or_default();
         diag.hint = Some(format!("{forms}`filpost explain {word}` shows more."));

@@ -20,10 +20,9 @@ use crate::errors::PostCode;
 use crate::operation::{SideSpindle, Spindle, SpindleSpeed, SpindleTurn};
 use range::{range_of, select_range, warn_of_limit, within_range};
 pub(in crate::control) use range::{speed_in_range, take_range_of};
-use turn::waits;
 pub use turn::{
     BEHIND_STOP, clockwise, clockwise_in_motion, may_stand_behind_change, may_stand_behind_stop,
-    may_turn, refuse_turning_back, stands, take_turn, why_it_stands,
+    may_turn, refuse_turning_back, stands, take_turn, waits, why_it_stands,
 };
 
 /// Meters of a foot.

@@ -16,7 +16,9 @@ pub(super) fn is_usual(group: Group, value: Value) -> bool {
         (PlaneIsTemporary | Cycle | AxisClamp | SpindleHalted | ProgramEnd, Value::Flag(on)) => !on,
         (CutterComp, Value::Compensation(side)) => side == Compensation::Off,
         (Path, Value::CutterPath(path)) => path != CutterPath::Leaving,
-        (Spindle, Value::Rotation(rotation)) => rotation != Rotation::Standing,
+        (Spindle, Value::Rotation(rotation)) => {
+            !matches!(rotation, Rotation::Standing | Rotation::Unsaid)
+        }
         (Tool, Value::Number(_)) => true,
         _ => false,
     }

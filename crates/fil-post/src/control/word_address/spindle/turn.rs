@@ -22,7 +22,7 @@ pub fn may_turn(control: &Control) -> bool {
 }
 
 /// A block that waits for a motion turns it.
-pub(super) fn waits(control: &Control) -> bool {
+pub fn waits(control: &Control) -> bool {
     control.waiting.has(Function::Spindle)
 }
 
