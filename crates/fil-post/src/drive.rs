@@ -133,9 +133,9 @@ fn carry_out(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resul
             if handle(post, &mut items)? {
                 return items.deny_rest();
             }
-            Err(refused(record, vocabulary))
+            Err(refused(post, record, vocabulary))
         }
-        Some(Handler::Refused) => Err(refused(record, vocabulary)),
+        Some(Handler::Refused) => Err(refused(post, record, vocabulary)),
         None => Err(unknown(record.major, vocabulary)),
     }
 }
@@ -208,9 +208,22 @@ fn turn(record: &Record) -> String {
     format!("it turns {what}, and whether {zero}the points turn with it is not in the file")
 }
 
-fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
+/// What to do with a word that turns a table.
+fn hint_of_turn(post: &Post, major: &str) -> String {
+    if !post.control.tables.chain().has_rotary() {
+        return format!(
+            "This machine has no rotary axis: choose a post with the one that turns (`filpost posts` lists them). If the operator turns the part, list {major} under words.without_effect in machine.toml."
+        );
+    }
+    format!(
+        "Set rotary.table_words: 1 if the points stay, 2 if they turn with the table. Or give the tool axis with each point (MULTAX/ON, GOTO/x,y,z,i,j,k): the axes then turn by the points, and {major} can be listed under words.without_effect in machine.toml."
+    )
+}
+
+fn refused(post: &Post, record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
     let major = vocabulary.name(record.major);
     let turn = turn(record);
+    let hint_of_turn = hint_of_turn(post, major);
     let (reason, hint) = match record.major {
         w::SYNC => (
             "programs of other channels wait here for each other, and the post writes one program",
@@ -230,10 +243,7 @@ fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
              the head already: list ROTHED under words.without_effect in machine.toml; else let a \
              FIL section take it.",
         ),
-        w::ROTATE => (
-            turn.as_str(),
-            "Set rotary.table_words: 1 if the points stay, 2 if they turn with the table. Or give the tool axis with each point (MULTAX/ON, GOTO/x,y,z,i,j,k): the post then positions the axes, and ROTATE can be listed under words.without_effect in machine.toml.",
-        ),
+        w::ROTATE | w::ROTABL => (turn.as_str(), hint_of_turn.as_str()),
         w::HEAD => (
             "it chooses a spindle or channel, and the machine of the post has one",
             "For a machine with one head list HEAD under words.without_effect in machine.toml; \
@@ -253,10 +263,6 @@ fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
             "an APT processor writes the repeated path out; in a CL file the copies would be \
              missing",
             "Expand the copies in the CAM system or APT processor. If the path is in the file already, list INDEX and COPY under words.without_effect in machine.toml.",
-        ),
-        w::ROTABL => (
-            turn.as_str(),
-            "Set rotary.table_words: 1 if the points stay, 2 if they turn with the table. If each point of the file has its tool axis in the part (MULTAX/ON), the axes turn the table already: list ROTABL under words.without_effect in machine.toml.",
         ),
         _ => (
             "it changes the path or the frame, and the post does not know how",

@@ -145,6 +145,12 @@ impl Post {
         self.path.point.map(|p| [p.x, p.y, p.z])
     }
 
+    /// True where a matrix moves the points of the CL file: that of the machine, TRANS, ROTABL or a
+    /// named frame.
+    pub fn moves_points(&self) -> bool {
+        self.path.transformation.is_some()
+    }
+
     /// The unit of CL file and program; `None` before anything has said it.
     pub fn unit(&self) -> Option<Unit> {
         self.control.unit

@@ -28,6 +28,8 @@ pub(crate) struct Counted {
     pub corner: Option<f64>,
     /// The unit of the CL file.
     pub unit: Option<Unit>,
+    /// A matrix moves the points of the CL file.
+    pub is_moved: bool,
 }
 
 /// What was counted.
@@ -59,8 +61,8 @@ struct ToolEntry {
     length: Option<f64>,
     name: Option<String>,
     totals: Totals,
-    /// It cuts whole threads, whose points are not counted.
-    threads: bool,
+    /// Its lowest Z is not that of its points: it cuts whole threads, or a matrix moves them.
+    other_z: bool,
 }
 
 impl ToolEntry {
@@ -72,7 +74,7 @@ impl ToolEntry {
         let mut line = format!("T{}", self.number);
         line.push_str(&measure("D", self.diameter));
         line.push_str(&measure("CR", self.corner));
-        if let Some(reach) = self.totals.reach.as_ref().filter(|_| !self.threads) {
+        if let Some(reach) = self.totals.reach.as_ref().filter(|_| !self.other_z) {
             line.push_str(&format!(" - ZMIN={}", length(reach.min[2])));
         }
         if let Some(name) = &self.name {
@@ -175,8 +177,12 @@ impl Overview {
             self.change_tool(record, cl_record);
         }
         let is_thread = matches!(record.major, words::THREAD | words::OP);
-        if let Some(tool) = self.tool.filter(|_| is_thread && counted.motion.is_none()) {
-            self.tools[tool].threads = true;
+        let has_other_z = match counted.motion {
+            None => is_thread,
+            Some(_) => counted.is_moved,
+        };
+        if let Some(tool) = self.tool.filter(|_| has_other_z) {
+            self.tools[tool].other_z = true;
         }
         if seconds > 0.0 {
             self.total.other_seconds += seconds;

@@ -75,6 +75,7 @@ impl Outside<'_, '_> {
                 diameter: self.source.diameter(),
                 corner: self.source.corner(),
                 unit: self.post.unit(),
+                is_moved: self.post.moves_points(),
             };
             overview.count(record, self.post.control.tape.cause.record, &counted);
         }
