@@ -416,12 +416,12 @@ fn is_offset(name: &str) -> bool {
         Some((whole, tenth)) => (whole, Some(tenth)),
         None => (code, None),
     };
-    let is_extended = extended.is_some_and(is_number)
-        && letter == "G"
-        && tenth.is_none_or(|tenth| tenth.len() == 1 && is_number(tenth));
+    let is_plain = tenth.is_none() && extended.is_none();
     letter.as_bytes()[0].is_ascii_uppercase()
         && is_number(whole)
-        && (is_extended || extended.is_none())
+        && tenth.is_none_or(|tenth| tenth.len() == 1 && is_number(tenth))
+        && extended.is_none_or(is_number)
+        && (letter == "G" || is_plain)
 }
 
 #[cfg(test)]

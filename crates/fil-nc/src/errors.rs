@@ -18,7 +18,7 @@ fil_diag::codes! {
         /// A function that the machine's settings do not have.
         ForeignCode = 904, Error, "the machine does not have this function",
             "The effect of the function is unknown, and so is the move after it.",
-            "Check that the program was written for this machine.";
+            "Check that the program was written for this machine. If your machine has the function, and it moves nothing, list it: verify.allowed_functions = [\"G187\"] in machine.toml; [effects] says what others do.";
         /// A word that nothing in its block takes.
         NoMeaning = 905, Error, "word without meaning in its block",
             "No function of the block takes this word; a control would refuse it or use it in its own way.",

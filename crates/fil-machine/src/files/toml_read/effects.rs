@@ -12,6 +12,9 @@ use crate::commons::Commons;
 use crate::effects::Effect;
 use crate::errors::MachineCode;
 
+/// Most functions of `verify.allowed_functions`.
+const MOST_FUNCTIONS: usize = 200;
+
 impl TomlReader<'_> {
     /// Adds a rule: a block, a word or a pattern, and what it does.
     ///
@@ -32,10 +35,35 @@ impl TomlReader<'_> {
             diag.hint = did_you_mean(name, names);
             return Err(self.at(value.span(), diag));
         };
+        self.add(commons, block, effect, key)
+    }
+
+    /// Functions that a program may have unasked: they change nothing that it counts on.
+    ///
+    /// # Errors
+    /// No list of texts; a text that names no block.
+    pub(super) fn allowed_functions(
+        &self,
+        commons: &mut Commons,
+        value: &Spanned<DeValue>,
+    ) -> Result<()> {
+        let functions = self.texts(value, MOST_FUNCTIONS)?;
+        functions
+            .iter()
+            .try_for_each(|function| self.add(commons, function, Effect::Nothing, value.span()))
+    }
+
+    fn add(
+        &self,
+        commons: &mut Commons,
+        block: &str,
+        effect: Effect,
+        place: Range<usize>,
+    ) -> Result<()> {
         if commons.add_effect(block, effect) {
             return Ok(());
         }
         let message = format!("`{block}` is every block; one is M98 P9001 or G65 P98*");
-        Err(self.at(key, Diag::new(MachineCode::SettingValue, message)))
+        Err(self.at(place, Diag::new(MachineCode::SettingValue, message)))
     }
 }

@@ -4,7 +4,7 @@
 //! `int.1870 = 1`, `rel.11 = 1.0`, `dbl.486 = 2.0`; `[address.X]` holds `slot`,
 //! `format`, `spec` and `char` of a letter; `blocks.start` and `blocks.end` are
 //! lists of texts, and so are `words.without_effect`, the major words that pass, and
-//! `verify.allowed_offsets`, what a program may choose unasked, and `learned.undecided` and `learned.unequal`; `[levels]` sets levels of codes,
+//! `verify.allowed_offsets` and `verify.allowed_functions`, what a program may have unasked, and `learned.undecided` and `learned.unequal`; `[levels]` sets levels of codes,
 //! `[effects]` says what blocks of the shop do, `[simulate]` what `filpost simulate` cuts, `[option.NAME]` declares an option of the post and
 //! `[options]` gives values. A flag takes true or false, a letter or character a text of
 //! one character, and every setting takes `"none"` for absent.
@@ -362,6 +362,9 @@ impl<'a> TomlReader<'a> {
                 }
             }
             return Ok(());
+        }
+        if name == "verify.allowed_functions" {
+            return self.allowed_functions(commons, value);
         }
         if let Some((kind, number)) = name.strip_prefix(IMPORTED).and_then(numbered) {
             return self.imported(commons, (kind, number), value, key);

@@ -1,5 +1,6 @@
 use super::*;
 use crate::commons::Int;
+use crate::effects::Effect;
 use crate::letter::Letter;
 
 fn error(text: &str) -> (String, String) {
@@ -160,12 +161,31 @@ fn allowed_offsets_are_names_of_offsets() {
         let text = format!("verify.allowed_offsets = {list}");
         read_toml("machine.toml", &text).map(|(commons, _)| commons)
     };
-    let commons = read("['G54', 'g54.1p3', 'E2']").unwrap();
-    assert_eq!(commons.allowed_offsets(), ["G54", "G54.1P3", "E2"]);
+    let commons = read("['G54', 'g54.1p3', 'E2', 'G59.1']").unwrap();
+    assert_eq!(commons.allowed_offsets(), ["G54", "G54.1P3", "E2", "G59.1"]);
     let text = crate::files::write_toml(&commons);
-    assert!(text.contains("verify.allowed_offsets = [\"G54\", \"G54.1P3\", \"E2\"]"), "{text}");
-    for wrong in ["G", "G54.1", "G54P", "54", "E2P1", "G54 P1 X", "G5.10P1", "É1", "G1234"] {
+    assert!(
+        text.contains("verify.allowed_offsets = [\"G54\", \"G54.1P3\", \"E2\", \"G59.1\"]"),
+        "{text}"
+    );
+    for wrong in ["G", "G54.", "G54P", "54", "E2P1", "G54 P1 X", "G5.10P1", "É1", "G1234"] {
         assert!(read(&format!("['{wrong}']")).is_err(), "{wrong}");
+    }
+}
+
+#[test]
+fn allowed_functions_are_effects() {
+    let read = |list: &str| {
+        let text = format!("verify.allowed_functions = {list}");
+        read_toml("machine.toml", &text).map(|(commons, _)| commons)
+    };
+    let commons = read("['M88', 'G187 P*']").unwrap();
+    let does = |block: &str| commons.effects().of(block).map(|found| found.rule.effect);
+    assert_eq!(does("G187 P2"), Some(Effect::Nothing));
+    assert_eq!(does("N10 M88"), Some(Effect::Nothing));
+    assert_eq!(does("M89"), None);
+    for wrong in ["['*']", "['']", "'M88'", "[88]"] {
+        assert!(read(wrong).is_err(), "{wrong}");
     }
 }
 

@@ -62,7 +62,8 @@ impl TomlReader<'_> {
         })
     }
 
-    /// A list of texts: `blocks.start`, `words.without_effect`, `verify.allowed_offsets`.
+    /// A list of texts: `blocks.start`, `words.without_effect`, `verify.allowed_offsets`,
+    /// `verify.allowed_functions`.
     pub(super) fn texts(&self, value: &Spanned<DeValue>, most: usize) -> Result<Vec<String>> {
         self.texts_up_to(value, most, usize::from(BLOCK_INTEGERS) * 2)
     }
