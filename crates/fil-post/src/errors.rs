@@ -347,6 +347,10 @@ fil_diag::codes! {
         TapOfFedrat = 598, Warning, "tap at the feed of FEDRAT",
             "A tap advances by its lead in each revolution. CYCLE/TAP has no feed, so the FEDRAT before it applies, which may be a milling feed.",
             "Give CYCLE / TAP its own feed (MMPM, MMPR, TPI ...).";
+        /// The way of an author to a reference point.
+        ReferenceWay = 574, Warning, "way to the reference point goes through the part",
+            "G28 and G30 go to their axis words first and then to the reference point. Under G90 Z0. is a place in the part, which the tool passes at rapid.",
+            "Write G91 G28 Z0. and G90 behind it (on a lathe G28 U0. W0.), or a position above the tool.";
         /// A table turned by an author.
         AuthorTurns = 568, Warning, "foreign block turns a table",
             "POSTN or INSERT turned a table of the machine, and the points after it have no tool axis. The table stays there, and the points are output as they are; a point with its own tool axis turns the table again.",

@@ -6,7 +6,7 @@ use fil_machine::locations as loc;
 use fil_machine::{FunctionCode, Letter, letters};
 
 use super::texts::without_blanks;
-use super::{Control, klartext, sinumerik, speed_of_others};
+use super::{Control, klartext, reference_way, sinumerik, speed_of_others};
 use crate::control_state::{Effect, ForeignBlock, Know, Meaning, Source, modal};
 use crate::errors::PostCode;
 
@@ -94,6 +94,7 @@ impl Control {
         } else {
             block.effects.iter().for_each(|effect| self.take_effect(*effect));
             if block.unread.is_none() {
+                reference_way::warn(self, &block.words);
                 self.family().learn_words(self, &block.words);
                 self.state.learn_text(block, &self.codes, self.unit);
             }

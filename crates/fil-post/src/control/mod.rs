@@ -24,6 +24,7 @@ pub mod needs;
 mod own_offsets;
 pub(crate) mod place;
 pub mod program;
+mod reference_way;
 mod repeats;
 pub mod replaced;
 mod settings;

@@ -11,7 +11,9 @@ use fil_machine::modes::Plane;
 use super::edit::plain;
 use super::left_out::{Edit, Maker};
 use super::word_address::modes;
-use super::{Compensation, Control, Function, full_turn, program, speed_of_others, texts};
+use super::{
+    Compensation, Control, Function, full_turn, program, reference_way, speed_of_others, texts,
+};
 use crate::cause::Cause;
 use crate::control::needs::Act;
 use crate::control_state::modal::{self, Group, Value};
@@ -121,7 +123,10 @@ impl Control {
         match edit {
             Some(edit) => self.learn_left(edit),
             None if self.learn_by_rule(start) => {}
-            None => self.state.learn_words(&plain, &self.codes),
+            None => {
+                reference_way::warn(self, &plain);
+                self.state.learn_words(&plain, &self.codes);
+            }
         }
         self.family().learn_words(self, &plain);
         if edit.is_none_or(|edit| self.changes_speed(edit)) {
