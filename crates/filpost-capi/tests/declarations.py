@@ -1,5 +1,5 @@
-"""Compares what examples/Post.cs declares with the header, without a compiler of C#: names, number of parameters, and
-for each value whether both sides mean a pointer, a size, a count or a number."""
+"""Compares what examples/Post.cs and examples/Post.java declare with the header, without a compiler: names, number of
+parameters, and for each value whether both sides mean a pointer, a size, a count or a number."""
 
 import re
 import sys
@@ -7,11 +7,12 @@ from pathlib import Path
 
 here = Path(__file__).resolve().parent.parent
 
-# What both sides call the same: kind by type of C#, and by type of C that is no pointer.
+# What the sides call the same: kind by type of C#, of Java, and by type of C that is no pointer.
 CSHARP = {
     "IntPtr": "pointer", "byte[]": "pointer", "out IntPtr": "pointer", "out UIntPtr": "pointer",
     "UIntPtr": "size", "ushort": "uint16", "double": "double", "void": "void",
 }
+JAVA = {"ADDRESS": "pointer", "JAVA_LONG": "size", "JAVA_SHORT": "uint16", "JAVA_DOUBLE": "double"}
 C = {"size_t": "size", "uint16_t": "uint16", "double": "double", "void": "void",
      "filpost_function": "pointer", "filpost_free_user_data": "pointer"}
 
@@ -47,11 +48,16 @@ def csharp():
         yield name, [CSHARP[returned]] + ["pointer" if t in delegates else CSHARP[t] for t in types]
 
 
-declared, wrong, count = header(), [], 0
-for name, kinds in csharp():
-    count += 1
-    if declared.get(name) != kinds:
-        wrong.append(f"{name}: C# {kinds}, C {declared.get(name)}")
-if wrong or count == 0:
-    sys.exit("examples/Post.cs and include/filpost.h differ:\n" + "\n".join(wrong))
-print(f"C#: {count} functions of examples/Post.cs are those of the header")
+def java():
+    text = re.sub(r"//.*", "", (here / "examples/Post.java").read_text())
+    for form, name, layouts in re.findall(r'= (returns|runs)\(\s*"(filpost_\w+)"((?:, \w+)*)\);', text):
+        kinds = [JAVA.get(one, one) for one in layouts.replace(",", " ").split()]
+        yield name, kinds if form == "returns" else ["void"] + kinds
+
+
+declared = header()
+for example, functions in [("Post.cs", list(csharp())), ("Post.java", list(java()))]:
+    wrong = [f"{name}: {kinds}, C {declared.get(name)}" for name, kinds in functions if declared.get(name) != kinds]
+    if wrong or not functions:
+        sys.exit(f"examples/{example} and include/filpost.h differ:\n" + "\n".join(wrong))
+    print(f"{len(functions)} functions of examples/{example} are those of the header")
