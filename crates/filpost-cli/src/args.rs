@@ -76,7 +76,7 @@ pub enum Command {
     Dap,
     /// Make a folder with the start of your own post
     New(NewArgs),
-    /// Make, run and judge a post in one page of the browser
+    /// Create, run and check a post in one page of the browser
     Studio(StudioArgs),
     /// Print the manual page of filpost or of a command
     Man {

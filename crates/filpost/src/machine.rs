@@ -1,6 +1,6 @@
 //! The machine of a program: where its settings come from, and what is laid over them.
 
-use fil_diag::Diag;
+use fil_diag::{Diag, suggest};
 use fil_machine::post_options::{GivenOption, PostOptions};
 use fil_machine::{Commons, contradictions, files as settings};
 
@@ -145,10 +145,8 @@ fn commons_of(machine: &Machine, layers: &Layers<'_>) -> Result<(Commons, Vec<Di
         }),
         Machine::Ready(name) | Machine::Generic(name) => {
             let post = ready::find(name).ok_or_else(|| {
-                let names: Vec<&str> = ready::READY.iter().map(|post| post.name).collect();
-                let diag = Diag::new(RunCode::NoReadyPost, format!("no ready post `{name}`"))
-                    .hint(format!("there are {}", names.join(", ")));
-                vec![diag]
+                let title = format!("no ready post `{name}`");
+                vec![Diag::new(RunCode::NoReadyPost, title).hint(meant(name))]
             })?;
             let options = layers.options(None, matches!(machine, Machine::Generic(_)));
             let read = settings::read_toml_given(post.name, post.machine, &no_base, options);
@@ -157,5 +155,34 @@ fn commons_of(machine: &Machine, layers: &Layers<'_>) -> Result<(Commons, Vec<Di
                 (commons, warnings)
             })
         }
+    }
+}
+
+/// The ready posts that were perhaps meant by a name: the nearest, else those of the same maker.
+fn meant(name: &str) -> String {
+    let known = || ready::READY.iter().map(|post| post.name);
+    let maker = name.split('-').next().unwrap_or_default().to_ascii_lowercase();
+    let of_maker: Vec<&str> = known().filter(|post| post.starts_with(&maker)).collect();
+    match suggest::did_you_mean(name, known()) {
+        Some(near) => format!("{near} `filpost posts` lists all of them."),
+        None if maker.is_empty() || of_maker.is_empty() => {
+            format!("there are {}", known().collect::<Vec<_>>().join(", "))
+        }
+        None => format!("did you mean {}?", of_maker.join(" or ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_post_names_those_that_were_perhaps_meant() {
+        assert!(meant("fanuc-mil").starts_with("did you mean fanuc-mill?"));
+        let haas = meant("Haas");
+        assert!(haas.starts_with("did you mean haas-"), "{haas}");
+        assert!(haas.contains(" or haas-trunnion") && !haas.contains("fanuc"), "{haas}");
+        assert!(meant("kuka").starts_with("there are brother-mill"));
+        assert!(meant("").starts_with("there are brother-mill"));
     }
 }
