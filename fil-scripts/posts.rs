@@ -49,6 +49,7 @@ ready![
     "fanuc-mill-a",
     "fanuc-mill-b",
     "fanuc-mill-turn",
+    "fluidnc",
     "grbl",
     "haas-lathe",
     "haas-mill",
@@ -74,6 +75,7 @@ ready![
     "sinumerik-mill-turn",
     "syntec-mill",
     "tormach-mill",
+    "uccnc-mill",
 ];
 
 impl ReadyPost {

@@ -36,6 +36,7 @@ pub mod errors;
 mod fault;
 mod forms;
 pub mod layout;
+pub mod operation_sign;
 pub mod reader;
 pub mod record;
 pub mod vocabulary;

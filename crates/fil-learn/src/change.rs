@@ -158,7 +158,7 @@ pub(crate) fn read(commons: &Commons, key: Key) -> Value {
     match key {
         Key::Setting(index) => Value::Number(number(commons, index)),
         Key::Letter(letter) => Value::Address(address(commons, letter)),
-        Key::Texts(list) => Value::Texts(user_blocks::LISTS[list].1.read(commons)),
+        Key::Texts(list) => Value::Texts(user_blocks::IN_COMMONS[list].1.read(commons)),
     }
 }
 
@@ -204,7 +204,7 @@ fn write(commons: &mut Commons, key: Key, value: &Value) -> Option<()> {
             };
             let few = texts.len() <= usize::from(user_blocks::MAX_BLOCKS);
             (few && texts.iter().all(fits)).then_some(())?;
-            user_blocks::LISTS[list].1.store(commons, texts);
+            user_blocks::IN_COMMONS[list].1.store(commons, texts);
         }
         _ => return None,
     }
@@ -216,7 +216,7 @@ pub(crate) fn name(key: Key) -> String {
     match key {
         Key::Setting(index) => row(index).name.into(),
         Key::Letter(letter) => format!("address.{}", char::from(letter)),
-        Key::Texts(list) => user_blocks::LISTS[list].0.into(),
+        Key::Texts(list) => user_blocks::IN_COMMONS[list].0.into(),
     }
 }
 

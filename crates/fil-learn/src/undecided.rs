@@ -50,7 +50,7 @@ pub(crate) fn find(
     for letter in b'A'..=b'Z' {
         candidates.extend(readings::other_forms(&commons, letter));
     }
-    for list in 0..filpost::user_blocks::LISTS.len() {
+    for list in 0..filpost::user_blocks::IN_COMMONS.len() {
         let other = Value::Texts(vec!["(OTHER)".into()]);
         candidates.push(vec![(Key::Texts(list), other)]);
     }

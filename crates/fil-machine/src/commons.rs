@@ -95,6 +95,9 @@ pub struct Commons {
     generation: u64,
     /// Major words whose records the machine passes over.
     without_effect: Vec<String>,
+    /// The lists of blocks that do not lie in INTCOM, by their number; those behind the last are
+    /// empty.
+    own_blocks: Vec<Vec<String>>,
     /// Work offsets that a program may choose where no CL file asks for one.
     allowed_offsets: Vec<String>,
     /// Settings with other values that no proven program tells apart from its own.
@@ -125,6 +128,7 @@ impl Commons {
             last_output: [EMPTY; LETTERS + 1],
             generation: 0,
             without_effect: Vec::new(),
+            own_blocks: Vec::new(),
             allowed_offsets: Vec::new(),
             undecided: Vec::new(),
             unequal: Vec::new(),
@@ -200,6 +204,20 @@ impl Commons {
         if !self.without_effect.contains(&word) {
             self.without_effect.push(word);
         }
+    }
+
+    /// A list of blocks that does not lie in INTCOM.
+    pub(crate) fn own_blocks(&self, number: usize) -> &[String] {
+        self.own_blocks.get(number).map_or(&[], Vec::as_slice)
+    }
+
+    /// Stores such a list.
+    pub(crate) fn set_own_blocks(&mut self, number: usize, blocks: Vec<String>) {
+        if self.own_blocks.len() <= number {
+            self.own_blocks.resize(number + 1, Vec::new());
+        }
+        self.own_blocks[number] = blocks;
+        self.generation = self.generation.wrapping_add(OF_SETTINGS);
     }
 
     /// Levels of findings that the machine sets: `[levels]`.

@@ -21,9 +21,10 @@ pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     let mut meant = chain.rotaries.iter().flatten().filter(|rotary| is_meant(commons, rotary));
     let mut add = |message: &str| found.push(Diag::new(MachineCode::Contradiction, message));
     let Some(first) = meant.next() else { return };
-    if commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext {
+    let is_klartext = commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext;
+    if is_klartext && commons.read(loc::ROTARY_OUTPUT) != RotaryOutput::ShortestPathWithinATurn {
         add(
-            "rotary.output outputs positions within 360 degrees, but the direction in which a Klartext control turns to them depends on M126 and its parameters",
+            "rotary.output outputs positions within 360 degrees with a direction, but a Klartext control has M126 alone, the shortest path",
         );
     }
     if mill_turn::mode(commons).is_some() {

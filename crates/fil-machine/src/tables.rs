@@ -23,6 +23,7 @@ use crate::numbering::Numbering;
 use crate::rotary_feed_rules::RotaryFeedRules;
 use crate::tape_style::TapeStyle;
 use crate::travel_rules::{self, TravelRules};
+use crate::user_blocks;
 
 /// What option files hold where a move may be of any length, mm or inch.
 const NO_DEPARTURE: f64 = 9999.9998;
@@ -72,6 +73,8 @@ pub struct MachineTables {
     pub clamps: bool,
     /// The rotary axes are clamped after rapid turns.
     pub clamps_turns: bool,
+    /// The user has blocks around turns of the rotary axes.
+    pub turn_texts: bool,
     /// Words of rotary axes are looked at before they are written.
     pub watches_turns: bool,
     axes: Vec<Axis>,
@@ -196,7 +199,10 @@ impl MachineTables {
             && commons.read(loc::ROTARY_TURN_CLAMP);
         let in_frames = self.frame_output && commons.read(loc::ROTARY_FRAME_CLAMP);
         self.clamps = in_frames || self.clamps_turns;
-        self.watches_turns = self.within_a_turn || self.clamps || self.tip_vectors;
+        let turn = user_blocks::TURN;
+        self.turn_texts = turn.before.is_on(commons) || turn.after.is_on(commons);
+        self.watches_turns =
+            self.within_a_turn || self.clamps || self.tip_vectors || self.turn_texts;
         if self.axes.iter().any(|axis| axis.scale() == 0.0) {
             return MachineCode::SettingValue.err("an output scale is zero");
         }

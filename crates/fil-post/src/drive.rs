@@ -12,6 +12,7 @@ use crate::items::Items;
 use crate::no_effect;
 use crate::operation::End;
 use crate::operation::{POINT, Target};
+use crate::path::places::{self, Places};
 use crate::path::{Path, Statement, index, long_arc, tool_change, way_home};
 use crate::post::Post;
 use crate::site_word;
@@ -19,7 +20,7 @@ use crate::words as word;
 use crate::words::end;
 use fil_cl::record::kind;
 use fil_cl::vocabulary::{Vocabulary, words as w};
-use fil_cl::{Record, Word, WordId};
+use fil_cl::{Record, Word, WordId, operation_sign};
 use fil_diag::{Diag, Result};
 use fil_machine::Commons;
 use nalgebra::{Point3, Vector3};
@@ -33,7 +34,9 @@ impl Post {
     /// # Errors
     /// Settings that make no machine.
     pub fn new(commons: Commons) -> Result<Self> {
-        Ok(Post { control: Control::new(commons)?, path: Path::default() })
+        let mut path = Path::default();
+        path.texts = Places::of(&commons);
+        Ok(Post { control: Control::new(commons)?, path })
     }
 
     /// Carries out one record.
@@ -97,6 +100,11 @@ impl Post {
 /// the post knows nor a table lists as without effect.
 #[inline]
 fn carry_out(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<()> {
+    if post.path.texts.are_on
+        && let Some(sign) = operation_sign::of(record)
+    {
+        places::note_sign(post, sign)?;
+    }
     if record.kind == kind::PSEUDO {
         word::csys::note(post, vocabulary.name(record.major), record)?;
         return word::pseudo::handle(post, &mut Items::new(record, vocabulary)?);

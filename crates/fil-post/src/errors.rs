@@ -375,5 +375,9 @@ fil_diag::codes! {
         ShiftedTurn = 722, Doubt, "incremental turn after another work offset",
             "The table was positioned in another work offset. The post counts on from that angle, which is right where both offsets have one zero of the table.",
             "Give the angle from zero: ROTATE / BAXIS, ABSOL, 180.";
+        /// A block of the user at a place where it can't stand.
+        TextPlace = 723, Error, "block of the settings is not possible here",
+            "A block under `[blocks]` in machine.toml names a tool or a work offset that nothing has called yet, or it moves an axis right before rotary axes turn.",
+            "Write the number itself, or move the block to another list of `[blocks]`.";
     }
 }

@@ -205,6 +205,10 @@ pub struct PostArgs {
     /// The NC file; standard output when left out or -
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
+    /// Write a program for each tool change, for a control without a tool changer: OUT_t1.nc and its CL
+    /// file OUT_t1.ncl, OUT_t2.nc …
+    #[arg(long, requires = "output", conflicts_with_all = ["listing", "profile", "shard"])]
+    pub each_tool: bool,
     /// Write a listing: records, sections, and the blocks they made
     #[arg(long, value_name = "FILE")]
     pub listing: Option<PathBuf>,

@@ -19,6 +19,7 @@ mod cl;
 mod convert;
 mod dialects;
 mod diff;
+mod each_tool;
 mod errors;
 mod explain;
 mod fmt;

@@ -11,7 +11,7 @@ use crate::args::PostArgs;
 use crate::errors::CommandCode;
 use crate::job::{self, Job, Outcome};
 use crate::posts::Posts;
-use crate::{Status, batch, output, summary};
+use crate::{Status, batch, each_tool, output, summary};
 
 /// CL files from this size on get a progress bar, in bytes.
 const PROGRESS: u64 = 4 << 20;
@@ -22,6 +22,11 @@ const PROGRESS: u64 = 4 << 20;
 /// What is wrong with the input, the post or the output.
 pub fn run(args: &PostArgs) -> Result<Status, Error> {
     match &args.cl[..] {
+        [cl] if args.each_tool && cl.is_file() => each_tool::run(args, cl),
+        _ if args.each_tool => {
+            output::say("error: --each-tool takes one CL file");
+            Ok(Status::Usage)
+        }
         [cl] if !cl.is_dir() && args.shard.is_none() => one(args, cl),
         _ => batch::run(args),
     }
@@ -45,12 +50,20 @@ fn one(args: &PostArgs, cl: &Path) -> Result<Status, Error> {
         map,
         audit: args.audit.clone().flatten(),
     };
-    let bar = bar(cl);
-    let outcome = job::run(&Posts::new(args), &job, bar.as_ref());
+    carry_out(&Posts::new(args), &job)
+}
+
+/// Posts one CL file and tells of it.
+///
+/// # Errors
+/// Why there is no program.
+pub fn carry_out(posts: &Posts<'_>, job: &Job) -> Result<Status, Error> {
+    let bar = bar(&job.cl);
+    let outcome = job::run(posts, job, bar.as_ref());
     if let Some(bar) = bar {
         bar.finish_and_clear();
     }
-    tell(&job, &outcome);
+    tell(job, &outcome);
     let report = outcome.result?;
     let warnings = outcome.warnings.len();
     output::say(&summary::line(&outcome.title, &report, warnings, outcome.time));

@@ -84,6 +84,10 @@ fil_diag::codes! {
         FileName = 720, Error, "invalid file name",
             "Windows reserves NUL, CON, AUX, PRN, COM1 and LPT1 with any extension, drops periods and blanks at the end of a name, and forbids some characters. Scripts can't use such names on any system, so a post works the same on each.",
             "Choose another name: letters, digits, `-`, `_`, and one extension.";
+        /// A tool change that is no program by itself.
+        ToolFile = 724, Error, "tool change is no program by itself",
+            "With --each-tool every tool change has a program of its own. Here one goes on with what the tool before has begun, or the CL file joins the tools.",
+            "Say it again behind LOADTL, such as SPINDL, COOLNT or CYCLE, or post the file in one program.";
         /// Statements after the end.
         AfterFini = 751, Warning, "records after FINI",
             "FINI ends the program; what comes after it is not posted.",

@@ -135,6 +135,8 @@ mod survey;
 #[doc(hidden)]
 pub mod tally;
 #[doc(hidden)]
+pub mod tool_files;
+#[doc(hidden)]
 pub mod trace;
 mod undecided;
 mod units;

@@ -4,6 +4,7 @@
 //! pass writes nothing and answers every question with 1; the second one answers with what
 //! the first has counted, counts again, and is refused where it comes to something else.
 
+use fil_cl::operation_sign::{NAME_OF_OPERATION, Sign};
 use fil_cl::{Record, words};
 use fil_machine::Unit;
 use fil_machine::modes::INCH;
@@ -100,18 +101,6 @@ struct Operation {
     totals: Totals,
 }
 
-/// What shows that an operation begins, the weakest first. The strongest sign of a file
-/// starts its operations; the weaker ones are events within them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-enum Sign {
-    #[default]
-    None,
-    ToolChange,
-    Message,
-    /// FEATNO, TOOL PATH, PPRINT OPERATION NAME.
-    Named,
-}
-
 /// What came since the last motion.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Pending {
@@ -157,7 +146,7 @@ impl Overview {
     }
 
     fn message(&mut self, text: &str) {
-        if let Some(name) = text.strip_prefix("OPERATION NAME") {
+        if let Some(name) = text.strip_prefix(NAME_OF_OPERATION) {
             self.sign(Sign::Named);
             self.pending.name = named(name.trim_start().trim_start_matches(':'));
         } else {

@@ -79,6 +79,13 @@ fn settings_page() -> String {
         ));
     }
     page.push_str(
+        "\n## Blocks at fixed places\n\nLists of texts without a location, under `[blocks]`: \
+         [blocks of your own](../machine.md#blocks-of-your-own).\n\n| list | where its blocks stand |\n|---|---|\n",
+    );
+    for (name, _, place) in user_blocks::OWN {
+        page.push_str(&format!("| `{name}` | {place} |\n"));
+    }
+    page.push_str(
         "\n## Settings that do not act\n\nfilpost keeps them, and warns if you set one \
          ([W0651](../errors/W0651.md)).\n\n| setting | location | what it would do | why it does not act |\n|---|---|---|---|\n",
     );

@@ -125,6 +125,8 @@ pub(crate) struct Axis {
     pub(crate) start: Option<f64>,
     /// It turns the part, and not the tool.
     pub(crate) turns_part: bool,
+    /// It turns without an end.
+    pub(crate) is_endless: bool,
 }
 
 /// What the characters of a program are.
@@ -423,6 +425,7 @@ fn axes(settings: &Settings, kinematics: &AxisChain, diameter: bool) -> [Axis; 5
             way_round: ways_round[axis],
             start: scale.filter(|_| last != EMPTY).map(|scale| scale.position(last)),
             turns_part: rotary.flatten().is_some_and(|rotary| rotary.carries == Carries::Table),
+            is_endless: rotary.flatten().is_some_and(|rotary| !rotary.is_limited()),
         }
     })
 }

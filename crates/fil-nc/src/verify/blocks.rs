@@ -3,6 +3,7 @@
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use fil_diag::Diag;
+use fil_machine::user_blocks::NAMES;
 
 use super::report::{Report, Unverified};
 use crate::dialect::{Marks, SKIP};
@@ -24,6 +25,8 @@ pub(super) struct OwnBlocks<'a> {
     asked: HashMap<Vec<u8>, bool>,
     /// Blocks around tool changes, bare, and the lines of the program that are such.
     around: HashMap<Vec<u8>, Vec<u32>>,
+    /// Those of both that hold numbers of tools and work offsets.
+    patterns: Vec<Pattern>,
     /// Lines of the program that are such blocks.
     lines: BTreeSet<u32>,
     /// Where the next INSERT is looked for, and the lines before it.
@@ -46,12 +49,14 @@ impl<'a> OwnBlocks<'a> {
         around: &[String],
     ) -> Result<Self, Box<Diag>> {
         let bare_block = |block: &String| bare(&marks.read(block.as_bytes()));
+        let patterns = blocks.iter().chain(around).map(bare_block).filter_map(Pattern::of);
         let mut own = OwnBlocks {
             source,
             name,
             marks,
             asked: blocks.iter().map(|block| (bare_block(block), false)).collect(),
             around: around.iter().map(|block| (bare_block(block), Vec::new())).collect(),
+            patterns: patterns.collect(),
             lines: BTreeSet::new(),
             from: 0,
             passed: 0,
@@ -80,6 +85,18 @@ impl<'a> OwnBlocks<'a> {
             if let Some(found) = self.around.get_mut(&text) {
                 found.push(number);
                 self.lines.insert(number);
+            }
+            for pattern in self.patterns.iter().filter(|pattern| pattern.fits(&text)) {
+                self.lines.insert(number);
+                if let Some(found) = self.asked.get_mut(&pattern.block) {
+                    *found = true;
+                }
+                for block in [&pattern.block, &text] {
+                    let lines = self.around.entry(block.clone()).or_default();
+                    if lines.last() != Some(&number) {
+                        lines.push(number);
+                    }
+                }
             }
         }
         Ok(())
@@ -192,6 +209,52 @@ impl<'a> OwnBlocks<'a> {
     }
 }
 
+/// A block in which names stand for numbers.
+struct Pattern {
+    /// The block as it stands in the settings, bare.
+    block: Vec<u8>,
+    /// What stands before, between and behind its numbers.
+    parts: Vec<Vec<u8>>,
+}
+
+impl Pattern {
+    /// `None` for a block without such names.
+    fn of(block: Vec<u8>) -> Option<Self> {
+        let mut parts = vec![Vec::new()];
+        let mut rest = block.as_slice();
+        while let Some(byte) = rest.first() {
+            let name = NAMES.iter().find(|name| {
+                rest.len() >= name.len() && rest[..name.len()].eq_ignore_ascii_case(name.as_bytes())
+            });
+            match name {
+                Some(name) => {
+                    parts.push(Vec::new());
+                    rest = &rest[name.len()..];
+                }
+                None => {
+                    parts.last_mut()?.push(*byte);
+                    rest = &rest[1..];
+                }
+            }
+        }
+        (parts.len() > 1).then_some(Pattern { block, parts })
+    }
+
+    /// True for a bare line that is the block with numbers in it.
+    fn fits(&self, line: &[u8]) -> bool {
+        let Some((first, others)) = self.parts.split_first() else { return false };
+        let Some(mut rest) = line.strip_prefix(first.as_slice()) else { return false };
+        for part in others {
+            let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+            match rest[digits..].strip_prefix(part.as_slice()) {
+                Some(behind) if digits > 0 => rest = behind,
+                _ => return false,
+            }
+        }
+        rest.is_empty()
+    }
+}
+
 /// The bytes that blocks begin with; most lines of a program begin with others.
 struct Firsts {
     has: [bool; 256],
@@ -204,6 +267,8 @@ impl Firsts {
         let mut firsts = Firsts { has: [false; 256], any: false };
         for block in blocks {
             match block.first() {
+                // A number comes first, which no line is told by.
+                Some(b'{') => (firsts.has, firsts.any) = ([true; 256], true),
                 Some(first) => firsts.has[usize::from(*first)] = true,
                 None => firsts.any = true,
             }

@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use fil_diag::Diag;
 
 use super::clamps::Clamps;
+use super::places::Turns;
 use super::report::Report;
 use super::rules::Rules;
 use super::settings::Settings;
@@ -52,6 +53,8 @@ impl<W: Watcher> Events for EventFilter<'_, W> {
 pub(super) struct NonMotionEvents {
     rules: Rules,
     clamps: Option<Clamps>,
+    /// Turns that the user's blocks stand around.
+    pub(super) turns: Option<Turns>,
     /// Line and number of each auxiliary function.
     pub(super) auxiliaries: Vec<(u32, u32)>,
 }
@@ -61,6 +64,7 @@ impl NonMotionEvents {
         NonMotionEvents {
             rules: Rules::new(settings),
             clamps: Clamps::new(settings),
+            turns: Turns::new(settings),
             auxiliaries: Vec::new(),
         }
     }
@@ -80,6 +84,9 @@ impl Watcher for NonMotionEvents {
     fn sees(&mut self, event: &Event) -> bool {
         if self.clamps.as_mut().is_some_and(|clamps| clamps.takes(event)) {
             return false;
+        }
+        if let (Some(turns), Event::Move(found)) = (&mut self.turns, event) {
+            turns.look(found);
         }
         match event {
             Event::Auxiliary { line, code } => {

@@ -1,5 +1,6 @@
 //! What a CL file asks of a machine, as plain data: mm, degrees, mm/min.
 
+use fil_cl::operation_sign::Sign;
 use fil_machine::cycle_kind::CycleKind;
 use nalgebra::{Point3, Vector3};
 
@@ -146,6 +147,8 @@ pub enum ExpectedStep {
     Words(String),
     /// Words of the user's own in each motion that follows.
     Repeated(String),
+    /// A record that says where an operation begins.
+    Sign(Sign),
     /// Something was left out that the operator may skip: what follows begins elsewhere than
     /// with it.
     LeftOut,

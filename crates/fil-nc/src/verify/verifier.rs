@@ -15,6 +15,7 @@ use super::event_filter::{EventFilter, NonMotionEvents};
 use super::expected_step::{ExpectedStep, Step};
 use super::machine_blocks::MachineBlockEffects;
 use super::modes::Expected;
+use super::places::Places;
 use super::report::{Finding, FindingKind, Report};
 use super::say::Shape;
 use super::settings::{Settings, Tolerances};
@@ -43,6 +44,8 @@ pub(super) struct Verifier<'a, C> {
     pub(super) own: OwnBlocks<'a>,
     /// What the machine's own blocks are to switch.
     pub(super) blocks: MachineBlockEffects,
+    /// What has begun that the user's blocks stand around.
+    pub(super) places: Places,
     pub(super) auxiliaries: Auxiliaries,
     pub(super) settings: &'a Settings<'a>,
     pub(super) slack: Tolerances,
@@ -84,6 +87,7 @@ impl<'a, C: Steps> Verifier<'a, C> {
             next: 0,
             own,
             blocks: MachineBlockEffects::default(),
+            places: Places::of(settings),
             auxiliaries: Auxiliaries::new(settings.way_out_codes()),
             settings,
             slack: settings.slack(true),
@@ -126,7 +130,7 @@ impl<'a, C: Steps> Verifier<'a, C> {
         }
         let finished = self.nc.finish();
         self.own.leave_open(&passed.take(), &mut self.report)?;
-        let beside = finished?.into_watcher();
+        let mut beside = finished?.into_watcher();
         if let Some(diag) = self.failed.or(self.cl.failed) {
             return Err(diag);
         }
@@ -143,6 +147,9 @@ impl<'a, C: Steps> Verifier<'a, C> {
             });
         }
         self.report.append(self.auxiliaries.compare(&beside.auxiliaries, &self.own));
+        if let Some(turns) = beside.turns.take().filter(|_| !self.over) {
+            self.report.append(turns.compare(&self.own, self.settings));
+        }
         self.report.append(beside.broken_rules());
         // Whatever was not made has been said; this holds if something was forgotten.
         let report = &mut self.report;
@@ -159,6 +166,15 @@ impl<'a, C: Steps> Verifier<'a, C> {
     }
 
     pub(super) fn step(&mut self, step: &Step) {
+        if !self.places.are_on {
+            return self.carry_out(step);
+        }
+        self.ask_texts_before(step);
+        self.carry_out(step);
+        self.ask_texts_after(step);
+    }
+
+    fn carry_out(&mut self, step: &Step) {
         // A text may ask which event came before.
         self.nc.forget(self.next.saturating_sub(1));
         let offset = self.expected.fixture.must;

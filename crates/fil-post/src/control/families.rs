@@ -34,6 +34,7 @@ const NOTHING: Capabilities = Capabilities {
     straight_rapids: false,
     skipped_is_unknown: false,
     reads_edited_lines: false,
+    machine_frame: "G53",
 };
 
 /// Words of letters and numbers (ISO 6983).
@@ -54,6 +55,7 @@ static KLARTEXT: Row = Row {
         numbers_lines: true,
         cycles_say_return: true,
         retract_function: true,
+        machine_frame: "M91",
         angles_beside_vectors: true,
         straight_rapids: true,
         ..NOTHING
@@ -72,6 +74,7 @@ static SINUMERIK: Row = Row {
         mode_statements: true,
         speed_modes_say_feed: true,
         diameter_statement: true,
+        machine_frame: "SUPA",
         spells_way_round: true,
         angles_beside_vectors: true,
         straight_rapids: true,

@@ -8,7 +8,7 @@ use fil_machine::{FunctionCode, Letter};
 use nalgebra::Rotation3;
 
 use super::word_address::{arc, motion as words};
-use super::{Control, departure, straight_rapid, vectors};
+use super::{Control, departure, full_turn, straight_rapid, vectors};
 use crate::cause::Cause;
 use crate::control_state::{ForeignBlock, modal};
 use crate::errors::PostCode;
@@ -57,6 +57,8 @@ pub struct Capabilities {
     pub skipped_is_unknown: bool,
     /// An edited line is read anew as a whole.
     pub reads_edited_lines: bool,
+    /// What makes positions count in the frame of the machine, for people.
+    pub machine_frame: &'static str,
 }
 
 /// A family of controls: what its language has, and what writes it.
@@ -322,6 +324,14 @@ pub trait Family: std::fmt::Debug + Sync {
         Ok(false)
     }
 
+    /// Ends what the start of the program has begun, before its end code.
+    ///
+    /// # Errors
+    /// As a line of the tape.
+    fn before_end(&self, _control: &mut Control) -> Result<()> {
+        Ok(())
+    }
+
     /// Writes what comes before the name of the program.
     ///
     /// # Errors
@@ -419,7 +429,8 @@ impl Control {
 pub fn rapid(control: &mut Control, motion: &Motion, code: RapidCode, cause: Cause) -> Result<()> {
     departure::refuse(control, motion, "a rapid move")?;
     straight_rapid::look(control, motion)?;
-    control.family().rapid(control, motion, code, cause)
+    control.family().rapid(control, motion, code, cause)?;
+    full_turn::end_turn(control)
 }
 
 /// Writes a feed motion in one block, or in several where it is longer than one may be.

@@ -8,8 +8,9 @@
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet, Position};
 use fil_machine::locations::{self as loc, RotaryOutput, RotaryZeroSign};
+use fil_machine::user_blocks;
 
-use super::Control;
+use super::{Control, user_texts};
 use crate::control::needs::Act;
 use crate::control_state::Place;
 use crate::errors::PostCode;
@@ -23,6 +24,8 @@ pub(crate) struct Rotary {
     pub wound: [Option<f64>; 2],
     /// They are clamped, as far as the post has commanded it.
     pub clamped: Option<bool>,
+    /// They have turned, and no rapid motion has ended since.
+    pub turns: bool,
 }
 
 /// The first rotary axis by number.
@@ -81,21 +84,28 @@ pub(crate) fn refuse_clamped(control: &Control, changed: AxisSet) -> Result<()> 
     if turns && !tables.clamps { control.require(Act::ClampedMove) } else { Ok(()) }
 }
 
-/// Releases the rotary axes before they turn, where the post clamps them;
-/// the block under construction comes behind it.
+/// Releases the rotary axes before they turn, where the post clamps them, behind the user's blocks
+/// before a turn; the block under construction comes behind it.
 ///
 /// # Errors
-/// As [`Control::write_block`].
+/// As [`Control::write_block`], and as the user's blocks, which may move nothing here.
 pub(crate) fn release(control: &mut Control) -> Result<()> {
-    if !control.tables.clamps || control.rotary.clamped == Some(false) {
+    let releases = control.tables.clamps && control.rotary.clamped != Some(false);
+    let begins = !std::mem::replace(&mut control.rotary.turns, true) && control.tables.turn_texts;
+    if !(releases || begins) {
         return Ok(());
     }
     let motion = control.block.take();
-    clamp(control, false)?;
+    if begins {
+        user_texts::write_at_rest(control, user_blocks::TURN.before)?;
+    }
+    if releases {
+        clamp(control, false)?;
+        // In a block that may be left out, so may be what follows; outside of it the axes may
+        // still be held.
+        control.rotary.clamped = Some(false).filter(|_| !control.state.may_be_skipped());
+    }
     control.block = motion;
-    // In a block that may be left out, so may be what follows; outside of it the axes may
-    // still be held.
-    control.rotary.clamped = Some(false).filter(|_| !control.state.may_be_skipped());
     Ok(())
 }
 
@@ -106,6 +116,18 @@ pub(crate) fn release(control: &mut Control) -> Result<()> {
 pub(crate) fn clamp_after_turn(control: &mut Control) -> Result<()> {
     let is_free = control.rotary.clamped == Some(false);
     if control.tables.clamps_turns && is_free { clamp(control, true) } else { Ok(()) }
+}
+
+/// Writes the user's blocks behind a turn, at the end of a rapid motion.
+///
+/// # Errors
+/// As the blocks.
+#[inline]
+pub(super) fn end_turn(control: &mut Control) -> Result<()> {
+    match std::mem::take(&mut control.rotary.turns) && control.tables.turn_texts {
+        true => user_texts::write(control, user_blocks::TURN.after),
+        false => Ok(()),
+    }
 }
 
 /// Clamps the rotary axes, or releases them.

@@ -36,6 +36,7 @@ mod straight_rapid;
 pub(crate) mod tap;
 mod texts;
 pub mod thread_cycle;
+pub(crate) mod user_texts;
 pub mod vectors;
 pub(crate) mod waiting;
 pub mod word_address;
@@ -102,8 +103,12 @@ pub(crate) struct Tools {
     pub prepared: Option<i64>,
     /// The first tool of the program.
     pub first: Option<i64>,
+    /// The tool that was called last, or is about to be.
+    pub loaded: Option<i64>,
     /// The work offset that SET/OFSETL named last, itself without a number.
     pub work_offset: Option<Option<i64>>,
+    /// The work offset that the post has written last.
+    pub written_offset: Option<Option<i64>>,
     /// The first tool of each length offset.
     pub of_offset: BTreeMap<i64, i64>,
     /// The coolant that a tool change has switched off, by its settings: it comes on again at the

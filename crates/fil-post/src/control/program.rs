@@ -6,13 +6,13 @@
 
 use fil_diag::Result;
 use fil_machine::commons::Dbl;
-use fil_machine::locations::{self as loc, TapePartnoText, ToolFormat};
+use fil_machine::locations::{self as loc, HomeFrame, TapePartnoText, ToolChangeBlock, ToolFormat};
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::setting::{CharacterAt, CodeAt};
 use fil_machine::{Commons, FunctionCode, osp_lengths, user_blocks};
 
-use super::Control;
 use super::texts::{MessageMarks, clean_message};
+use super::{Control, user_texts};
 use crate::cause::Cause;
 use crate::control::needs::Act;
 use crate::control_state::{ControlState, Distance, Source, modal};
@@ -113,7 +113,7 @@ pub fn start(control: &mut Control) -> Result<()> {
 
 /// The blocks at the start; the machine's settings ask for them.
 fn write_start(control: &mut Control) -> Result<()> {
-    let blocks = user_blocks::START.read(&control.commons);
+    let blocks = user_texts::texts(control, user_blocks::START)?;
     let own_start = !blocks.is_empty();
     // Texts that say no unit leave a machine of both units in any.
     let of_both = control.commons.read(loc::UNITS_MODE) == loc::UnitsMode::AsTheClFile;
@@ -130,7 +130,7 @@ fn write_start(control: &mut Control) -> Result<()> {
     part_name(control)?;
     program_number(control)?;
     time_stamp(control)?;
-    tool_list(control)?;
+    notes(control)?;
     if !own_start || safe_start {
         refuse_a_unit_without_code(control)?;
         if safe_start {
@@ -162,9 +162,8 @@ fn write_start(control: &mut Control) -> Result<()> {
 /// Cutter compensation that is still on; a code that does not fit its address.
 pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
     finish(control)?;
-    for block in user_blocks::END.read(&control.commons) {
-        control.because(Cause::default(), |control| control.write_text(&block, true))?;
-    }
+    user_texts::write(control, user_blocks::END)?;
+    control.family().before_end(control)?;
     end_code(control, code)?;
     close(control)
 }
@@ -404,11 +403,16 @@ fn time_stamp(control: &mut Control) -> Result<()> {
     control.put_line(&marks.enclose(&time), false).map(|_| ())
 }
 
-/// Lists the tools in comments, where the machine wants them.
+/// Writes the comments of the head: how the tool retracts, and the tools, where the machine wants
+/// them.
 ///
 /// # Errors
 /// As a line on the tape.
-pub fn tool_list(control: &mut Control) -> Result<()> {
+pub fn notes(control: &mut Control) -> Result<()> {
+    if control.commons.read(loc::PROGRAM_RETRACT_NOTE) {
+        let note = retract_note(control);
+        head_comment(control, &note)?;
+    }
     if !control.commons.read(loc::PROGRAM_TOOL_LIST) {
         return Ok(());
     }
@@ -417,13 +421,40 @@ pub fn tool_list(control: &mut Control) -> Result<()> {
         control.warnings.add(PostCode::IgnoredPart, message.to_string());
         return Ok(());
     };
-    let (marks, brackets) = (MessageMarks::of(control), control.can().brackets_are_comments);
-    for tool in tools {
-        let tool = cleaned(control, &tool, marks.both());
-        let line = if brackets { marks.enclose(&tool) } else { format!("; {tool}") };
-        control.put_line(&line, false)?;
+    tools.iter().try_for_each(|tool| head_comment(control, tool))
+}
+
+fn head_comment(control: &mut Control, text: &str) -> Result<()> {
+    let marks = MessageMarks::of(control);
+    let text = cleaned(control, text, marks.both());
+    let line = match control.can().brackets_are_comments {
+        true => marks.enclose(&text),
+        false => format!("; {text}"),
+    };
+    control.put_line(&line, false).map(|_| ())
+}
+
+/// How the tool retracts before a change and the end, and what that asks of the machine.
+fn retract_note(control: &Control) -> String {
+    let commons = &control.commons;
+    let goes = commons.read(loc::TOOL_CHANGE_BLOCK) != ToolChangeBlock::None;
+    let level = commons.dbl_opt(loc::CHANGE_POSITION[2]).filter(|_| goes);
+    let level = level.or(commons.dbl_opt(loc::HOME_RETRACT_Z));
+    match (level, commons.read(loc::HOME_FRAME)) {
+        (None, _) => "NO RETRACT: Z STAYS AT THE HEIGHTS OF THE CL FILE".to_string(),
+        (Some(level), HomeFrame::OfThePart) => {
+            format!("RETRACT TO Z{level} OF THE PART: MUST BE CLEAR")
+        }
+        (Some(_), HomeFrame::OfTheMachine) => {
+            format!("RETRACT BY {}: HOME THE MACHINE FIRST", control.can().machine_frame)
+        }
+        (Some(_), HomeFrame::ReferencePoint) => {
+            "RETRACT BY G28: HOME THE MACHINE FIRST".to_string()
+        }
+        (Some(_), HomeFrame::SecondReferencePoint) => {
+            "RETRACT BY G30: SET THAT POINT CLEAR OF THE PART".to_string()
+        }
     }
-    Ok(())
 }
 
 /// Writes PARTNO as a comment before the program, where the machine wants it.

@@ -4,7 +4,7 @@ use fil_diag::Result;
 use fil_machine::letters::XYZ;
 use fil_machine::locations as loc;
 
-use super::{hole, tip_hole};
+use super::{hole, places, tip_hole};
 use crate::control::word_address::cycle;
 use crate::operation::cycle::{AboveHoles, Cycle};
 use crate::post::Post;
@@ -34,6 +34,7 @@ pub fn replace(post: &mut Post, cycle: Option<Cycle>) -> Result<()> {
         }
     };
     post.path.last.above_left = above.filter(|_| cycle.is_none()).map(|above| (above, stands));
+    let is_over = cycle.is_none();
     post.path.cycle = cycle.map(|cycle| Cycle { initial, above, ..cycle });
-    Ok(())
+    if is_over { places::end_cycle(post) } else { Ok(()) }
 }

@@ -29,6 +29,7 @@ mod machine_position;
 pub mod mill_turn;
 pub(crate) mod named_frames;
 mod operations;
+pub(crate) mod places;
 mod plates;
 mod pole;
 mod position;

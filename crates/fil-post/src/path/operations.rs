@@ -2,8 +2,8 @@
 
 use super::{
     arc, compensation_side, counted_spindle, frame, frame_end, hole, index, lead_in, linear,
-    machine_position, mill_turn, position, rotary, skip, tip_control, tool_change, way_home,
-    whole_thread,
+    machine_position, mill_turn, places, position, rotary, skip, tip_control, tool_change,
+    way_home, whole_thread,
 };
 use crate::control::length_plane;
 use crate::control::needs::Act;
@@ -18,6 +18,9 @@ use fil_diag::Result;
 /// # Errors
 /// Whatever the machine or the control can't do.
 pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
+    if post.path.texts.are_on {
+        places::before(post, &operation)?;
+    }
     match operation {
         Operation::Linear(target, kind) => linear::carry_out(post, &target, kind),
         Operation::Arc(arc, target) => {

@@ -5,12 +5,13 @@ use fil_diag::Result;
 use fil_machine::Commons;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations::{self as loc, ToolChangeBlock};
-use fil_machine::user_blocks::{self, AroundChange, UserBlocks};
+use fil_machine::user_blocks::{self, Around, UserBlocks};
 
 use super::{frame, frame_end, rapid, rapid_lean, tip_control, turned_apart, way_home};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::machine_frame::{self, Before};
+use crate::control::user_texts;
 use crate::control::word_address::tool;
 use crate::control_state::Place;
 use crate::errors::PostCode;
@@ -62,11 +63,12 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     let is_first = control.tools.changes == 0;
     control.tools.changes += 1;
     control.tools.prepared = None;
+    control.tools.loaded = Some(wanted.tool);
     if !wanted.by_hand {
         control.tools.first.get_or_insert(wanted.tool);
     }
     let cause = wanted.causes[0].whole();
-    write_blocks(control, around[0])?;
+    user_texts::write(control, around[0])?;
     control.because(cause, |control| {
         if wanted.by_hand || !is_first {
             way_home::switch_off_for_change(control, wanted.by_hand)?;
@@ -81,7 +83,7 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     way_home::write_held(control)?;
     control.tape.align();
     control.family().change_tool(control, wanted)?;
-    write_blocks(control, around[1])?;
+    user_texts::write(control, around[1])?;
     prepare_next(control, &wanted)?;
     control.because(cause, way_home::restate)
 }
@@ -144,20 +146,9 @@ fn around(control: &mut Control, wanted: &ToolChange) -> [UserBlocks; 2] {
         (_, true) => last,
         (_, false) => user_blocks::OTHER_CHANGE,
     };
-    let AroundChange { before, after } = user_blocks::OTHER_CHANGE;
+    let Around { before, after } = user_blocks::OTHER_CHANGE;
     [(own.before, before), (own.after, after)]
         .map(|(own, other)| if own.is_on(&control.commons) { own } else { other })
-}
-
-/// Writes the blocks of a list; an empty one stands for no block.
-fn write_blocks(control: &mut Control, list: UserBlocks) -> Result<()> {
-    if !list.is_on(&control.commons) {
-        return Ok(());
-    }
-    let blocks = list.read(&control.commons);
-    blocks.iter().filter(|block| !block.is_empty()).try_for_each(|block| {
-        control.because(Cause::default(), |control| control.write_text(block, true))
-    })
 }
 
 /// Goes to the machine's change position before the change (INTCOM 1872,

@@ -5,11 +5,12 @@ use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations::{self as loc, ProgramEndBlock, ToolChangeStop};
 use fil_machine::setting::CodeAt;
+use fil_machine::user_blocks::{self, Around};
 
 use super::{height, machine_position};
 use crate::control::machine_frame::Before;
 use crate::control::word_address::{coolant, cycle, fixture, spindle};
-use crate::control::{Control, Held, family, full_turn, program};
+use crate::control::{Control, Held, family, full_turn, program, user_texts};
 use crate::control_state::{Source, WorkOffset, modal};
 use crate::operation::motion::{Motion, RapidCode};
 use crate::operation::{Coolant, Operation, Spindle, Stop};
@@ -119,9 +120,20 @@ pub(super) fn restate(control: &mut Control) -> Result<()> {
     }
     match (offset_of_author(control), work_offset_in_force(control)) {
         (Some(offset), _) => fixture::restate(control, offset),
-        (None, Some(number)) => control.family().write(control, Operation::WorkOffset(number)),
+        (None, Some(number)) => write_work_offset(control, number),
         (None, None) => Ok(()),
     }
+}
+
+/// Writes a work offset, one that is not in force between the user's blocks.
+fn write_work_offset(control: &mut Control, number: Option<i64>) -> Result<()> {
+    let is_other = control.tools.written_offset.replace(number) != Some(number);
+    let Around { before, after } = user_blocks::OFFSET;
+    if is_other {
+        user_texts::write(control, before)?;
+    }
+    control.family().write(control, Operation::WorkOffset(number))?;
+    if is_other { user_texts::write(control, after) } else { Ok(()) }
 }
 
 /// The work offset that was named last, or the first one of the machine; `None` where a block of
@@ -154,7 +166,7 @@ pub(super) fn take_work_offset(post: &mut Post, number: Option<i64>) -> Result<(
     if restates && !is_other && control.state.get(modal::WORK_OFFSET).is_some() {
         return Ok(());
     }
-    control.family().write(control, Operation::WorkOffset(number))
+    write_work_offset(control, number)
 }
 
 /// Goes up to the level of RETRCT; the next motion says its function again, so that the program can

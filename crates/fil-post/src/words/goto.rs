@@ -14,7 +14,7 @@ use crate::control_state::modal::{self, Group, GroupSet};
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{MotionKind, Operation, Target};
-use crate::path::{Since, carry_out, linear, thread_points};
+use crate::path::{Since, carry_out, linear, places, thread_points};
 use crate::post::Post;
 
 /// Levels nearer than this are one level, mm or inch.
@@ -86,6 +86,9 @@ pub fn drills(post: &Post) -> bool {
 /// All that the motion refuses.
 #[inline]
 pub fn straight(post: &mut Post, target: Target) -> Result<()> {
+    if post.path.texts.are_on {
+        places::begin(post)?;
+    }
     match take_kind_of_motion(post) {
         MotionKind::Thread(lead) => thread_points::point(post, target, lead),
         // The most frequent operation is carried out without being made: its copy would have

@@ -9,6 +9,7 @@ mod codes;
 mod coverage;
 mod dap;
 mod diff;
+mod each_tool;
 mod editors;
 mod encodings;
 mod explain;

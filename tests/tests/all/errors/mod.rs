@@ -48,6 +48,7 @@ const TESTED_HERE: &[(&str, &str)] = &[
     ("E0712", "e0712_record_from_memory"),
     ("E0713", "e0713_codes_that_stand"),
     ("E0714", "e0714_machin_names_no_post"),
+    ("E0724", "e0724_tool_change_is_no_program"),
     ("E0715", "e0715_units_contradict"),
     ("E0716", "e0716_changed_as_written"),
     ("W0757", "w0757_choice_against_the_signs"),

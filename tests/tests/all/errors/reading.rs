@@ -166,3 +166,16 @@ fn w0757_choice_against_the_signs() {
     assert_eq!((codes, chosen[0].spans[0].line), (vec!["W0757".to_string()], 1));
     assert!(post(None).is_empty());
 }
+
+#[test]
+fn e0724_tool_change_is_no_program() {
+    let cl = "LOADTL / 1\nSPINDL / 900, RPM, CLW\nLOADTL / 2\nGOTO / 4, 2, 3\n";
+    let options = filpost::cl::reader::Options::default();
+    let changes = filpost::tool_files::changes(cl.as_bytes(), "part.ncl", options).unwrap();
+    let write = |number| {
+        let text = std::io::Cursor::new(cl.as_bytes());
+        changes.write_one(number, text, "part.ncl", options, std::io::Cursor::new(Vec::new()))
+    };
+    assert!(write(0).is_ok());
+    assert_eq!(write(1).unwrap_err().code.name(), "E0724");
+}

@@ -328,7 +328,13 @@ impl<'a> TomlReader<'a> {
             return self.setting(commons, new, key, value);
         }
         if let Some((_, list)) = user_blocks::LISTS.iter().find(|(key, _)| *key == name) {
-            list.store(commons, &self.texts(value, MAX_BLOCKS.into())?);
+            let blocks = self.texts(value, MAX_BLOCKS.into())?;
+            if let Some(name) = blocks.iter().find_map(|block| user_blocks::unknown_name(block)) {
+                let known = user_blocks::NAMES.join(" and ");
+                let message = format!("`{name}` stands for nothing; blocks know {known}");
+                return Err(self.at(value.span(), Diag::new(MachineCode::SettingValue, message)));
+            }
+            list.store(commons, &blocks);
             return Ok(());
         }
         if name == "words.without_effect" {

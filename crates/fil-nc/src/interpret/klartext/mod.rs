@@ -51,6 +51,8 @@ struct Klartext<'d> {
     defined: Option<Definition>,
     /// The datum shift of cycle 7, mm.
     shift: [f64; 3],
+    /// M126: rotary axes without an end go the shorter way.
+    shortest: bool,
     /// The old cycle that the line before defines, and whether it said more than its name.
     old: Option<(u32, bool)>,
 }
@@ -78,6 +80,7 @@ impl<'a> Program<'a> {
             pole: [None; 2],
             defined: None,
             shift: [0.0; 3],
+            shortest: false,
             old: None,
         };
         Program { control, lines: Lines::from(source, 0), number: 0, last: 1, leaves_out: false }
@@ -284,6 +287,10 @@ impl Klartext<'_> {
             99 => return Ok(After::CallsCycle),
             136 | 137 => {
                 self.feed_mode(if code == 136 { FeedMode::PerTurn } else { FeedMode::PerMinute });
+                return Ok(After::Nothing);
+            }
+            126 | 127 => {
+                self.shortest = code == 126;
                 return Ok(After::Nothing);
             }
             89.. => {

@@ -4,7 +4,7 @@ use super::super::Fault;
 use super::super::arc::sweep;
 use super::line::Word;
 use super::{After, Klartext};
-use crate::dialect::{Amount, FeedMode};
+use crate::dialect::{Amount, FeedMode, WayRound};
 use crate::errors::NcCode;
 use crate::motion::{Arc, Compensation, Course, Rate};
 
@@ -52,6 +52,7 @@ impl Klartext<'_> {
             let turns = said.axes[3..].iter().any(Option::is_some);
             self.state.check_tilted_motion(turns)?;
             let (to, known) = self.target(&said);
+            self.check_ways_round(&said, &to)?;
             if said.machine {
                 self.state.go_to_machine(to, said.axes.map(|axis| axis.is_some()));
             } else if said.rapid {
@@ -227,7 +228,10 @@ impl Klartext<'_> {
         for (axis, word) in said.axes.iter().enumerate() {
             match *word {
                 Some((value, false)) => {
-                    to[axis] = self.state.position(axis, value);
+                    to[axis] = match self.way_round(axis) {
+                        None => self.state.position(axis, value),
+                        Some(way) => self.state.turned(axis, value, way),
+                    };
                     known[axis] = true;
                 }
                 Some((value, true)) => to[axis] += self.state.way(axis, value),
@@ -235,6 +239,27 @@ impl Klartext<'_> {
             }
         }
         (to, known)
+    }
+
+    /// How the words of an axis count within a turn; `None` for one that counts on.
+    fn way_round(&self, axis: usize) -> Option<WayRound> {
+        let is_endless = self.state.dialect.axes[axis].is_endless;
+        (self.shortest && is_endless).then_some(WayRound::Shortest)
+    }
+
+    /// Refuses half a turn the shortest way in a line that moves more than that axis.
+    fn check_ways_round(&self, said: &Said, to: &[f64; 5]) -> Result<(), Fault> {
+        let turns_alone = said.rapid && said.axes[..3] == [None; 3];
+        let is_said = |axis: &usize| said.axes[*axis].is_some() && self.state.known[*axis];
+        for axis in (3..5).filter(is_said).filter(|_| !turns_alone) {
+            self.state.check_way_round(
+                axis,
+                self.way_round(axis),
+                self.state.at[axis],
+                to[axis],
+            )?;
+        }
+        Ok(())
     }
 
     /// Takes up the words of a line that moves, and says no direction of the tool.
@@ -255,6 +280,8 @@ impl Klartext<'_> {
             match word.text.as_str() {
                 "M136" => self.feed_mode(FeedMode::PerTurn),
                 "M137" => self.feed_mode(FeedMode::PerMinute),
+                "M126" => self.shortest = true,
+                "M127" => self.shortest = false,
                 _ => {}
             }
         }

@@ -18,7 +18,7 @@ mod words;
 use std::collections::VecDeque;
 
 use fil_cl::record::{kind, mode};
-use fil_cl::{Circle, Reader, Record, Vocabulary, words as w};
+use fil_cl::{Circle, Reader, Record, Vocabulary, operation_sign, words as w};
 use fil_diag::Diag;
 use fil_machine::Unit;
 use fil_machine::cycle_kind::CycleKind;
@@ -107,6 +107,8 @@ struct State {
     taps_are_rigid: bool,
     /// M codes that end the program.
     end_codes: Vec<u32>,
+    /// Where operations begin is asked for.
+    says_signs: bool,
 }
 
 /// Goes through a CL file.
@@ -131,6 +133,13 @@ impl<'r> ClPath<'r> {
     #[must_use]
     pub fn with_rigid_taps(mut self, are_rigid: bool) -> Self {
         self.state.taps_are_rigid = are_rigid;
+        self
+    }
+
+    /// The same path, which says where operations begin too.
+    #[must_use]
+    pub fn saying_signs(mut self, says: bool) -> Self {
+        self.state.says_signs = says;
         self
     }
 
@@ -297,6 +306,14 @@ impl Iterator for ClPath<'_> {
 
 impl State {
     fn take(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<ExpectedStep> {
+        let steps = self.take_effects(record, vocabulary);
+        match operation_sign::of(record).filter(|_| self.says_signs) {
+            Some(sign) => [ExpectedStep::Sign(sign)].into_iter().chain(steps).collect(),
+            None => steps,
+        }
+    }
+
+    fn take_effects(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<ExpectedStep> {
         if matches!(record.major, w::TPRINT | w::TOOL_PATH) {
             self.names.say(record);
             return Vec::new();

@@ -15,7 +15,7 @@ use fil_machine::locations::{
     self as loc, CircleCenter, ControlFamily, Exceeded, InputKind, Placement, RapidSplit,
     RotaryClwAlongNormal, RotaryDefaultClw, RotaryFacesPositive,
 };
-use fil_machine::user_blocks::{self, AroundChange};
+use fil_machine::user_blocks::{self, Around, UserBlocks};
 use nalgebra::Matrix3x4;
 
 use crate::dialect::{Dialect, Habit};
@@ -422,6 +422,23 @@ impl<'c> Settings<'c> {
         kinds.into_iter().flat_map(|kind| self.blocks_of(kind)).collect()
     }
 
+    /// The blocks that may stand around operations, work offsets, cycles and turns.
+    pub fn blocks_at_places(&self) -> Vec<String> {
+        user_blocks::OWN.iter().flat_map(|(_, list, _)| self.blocks_of_list(*list)).collect()
+    }
+
+    /// The settings have such blocks.
+    pub(super) fn has_texts_at_places(&self) -> bool {
+        user_blocks::OWN.iter().any(|(_, list, _)| list.is_on(self.commons))
+    }
+
+    /// The blocks of a list; an empty text stands for none.
+    pub(super) fn blocks_of_list(&self, list: UserBlocks) -> Vec<String> {
+        let mut blocks = list.read(self.commons);
+        blocks.retain(|block| !block.is_empty());
+        blocks
+    }
+
     /// The blocks that so many tool changes ask for.
     pub fn blocks_of_changes(&self, changes: usize) -> Vec<String> {
         let kind = |at: usize| match at {
@@ -433,13 +450,13 @@ impl<'c> Settings<'c> {
     }
 
     /// The blocks of one kind of tool change.
-    fn blocks_of(&self, kind: AroundChange) -> Vec<String> {
+    fn blocks_of(&self, kind: Around) -> Vec<String> {
         self.blocks_around(kind).concat()
     }
 
     /// The blocks before and after one kind of tool change; where it has none, those of the others.
-    pub(super) fn blocks_around(&self, kind: AroundChange) -> [Vec<String>; 2] {
-        let AroundChange { before, after } = user_blocks::OTHER_CHANGE;
+    pub(super) fn blocks_around(&self, kind: Around) -> [Vec<String>; 2] {
+        let Around { before, after } = user_blocks::OTHER_CHANGE;
         [(kind.before, before), (kind.after, after)].map(|(own, other)| {
             let own = own.read(self.commons);
             let mut blocks = if own.is_empty() { other.read(self.commons) } else { own };

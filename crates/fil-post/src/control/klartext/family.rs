@@ -174,6 +174,10 @@ impl Family for Klartext {
         program::start(control, blocks).map(|()| true)
     }
 
+    fn before_end(&self, control: &mut Control) -> Result<()> {
+        program::shortest_path(control, program::PATH_OF_NUMBERS)
+    }
+
     fn close(&self, control: &mut Control) -> Result<bool> {
         program::end(control).map(|()| true)
     }

@@ -7,9 +7,15 @@ use fil_machine::modes::{Plane, Unit};
 use super::line::{self, Line};
 use crate::cause::Cause;
 use crate::control::Control;
-use crate::control::program::tool_list;
+use crate::control::program::notes;
 use crate::control_state::{Source, modal};
 use crate::errors::PostCode;
+
+/// Rotary axes take the shorter way.
+const SHORTEST_PATH: &str = "M126";
+
+/// They take the way of their numbers again.
+pub const PATH_OF_NUMBERS: &str = "M127";
 
 /// Longest name of a program.
 const NAME: usize = 32;
@@ -31,8 +37,20 @@ pub fn start(control: &mut Control, blocks: &[String]) -> Result<()> {
     let cause = control.head.cause;
     let text = format!("BEGIN PGM {} {}", control.klartext.name, unit_text(unit));
     line::put(control, &Line::of_text(&text, cause))?;
-    tool_list(control)?;
-    blocks.iter().try_for_each(|block| control.write_text(block, true))
+    notes(control)?;
+    blocks.iter().try_for_each(|block| control.write_text(block, true))?;
+    shortest_path(control, SHORTEST_PATH)
+}
+
+/// Rotary axes take the shorter way to positions within a turn, or the way of their numbers.
+///
+/// # Errors
+/// As a line of the tape.
+pub fn shortest_path(control: &mut Control, code: &str) -> Result<()> {
+    match control.tables.within_a_turn {
+        true => line::put(control, &Line::of_text(code, Cause::default())),
+        false => Ok(()),
+    }
 }
 
 /// The last line.
