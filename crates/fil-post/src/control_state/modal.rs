@@ -71,78 +71,71 @@ impl<T: Copy + PartialEq> Know<T> {
     }
 }
 
-/// A value of a modal group.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Value {
-    /// On or off, yes or no.
-    Flag(bool),
-    /// The code in force.
-    Code(FunctionCode),
-    /// A tool or offset number.
-    Number(i64),
-    /// A spindle speed, rev/min.
-    Speed(f64),
-    /// The plane of arcs, cycles and cutter compensation.
-    Plane(Plane),
-    /// G90, G91.
-    Distance(Distance),
-    /// G20, G21.
-    Unit(Unit),
-    /// G93, G94, G95.
-    FeedMode(FeedMode),
-    /// G40, G41, G42.
-    Compensation(Compensation),
-    /// Where the path stands in cutter compensation.
-    CutterPath(CutterPath),
-    /// M3, M4, M5.
-    Rotation(Rotation),
-    /// G43, G49.
-    Length(Length),
-    /// G54, G54.1 P3.
-    Offset(WorkOffset),
-}
+/// A value of a modal group as a number: groups of all types stand in one table so, and two
+/// values of a group are compared as numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Value(u64);
 
 /// A type that a modal group holds.
 pub trait Modal: Copy + PartialEq {
     /// As a value of a group.
     fn value(self) -> Value;
-    /// Of a value of a group of this type.
+    /// Of a value of a group of this type; `None` for a number that means nothing in it.
     fn of(value: Value) -> Option<Self>;
 }
 
 macro_rules! modal {
-    ($($kind:ident($type:ty)),*) => {
+    ($($type:ty: $number:expr, $of:expr;)*) => {
         $(impl Modal for $type {
-            #[inline]
+            #[inline(always)]
             fn value(self) -> Value {
-                Value::$kind(self)
+                Value($number(self))
             }
-            #[inline]
-            fn of(value: Value) -> Option<Self> {
-                match value {
-                    Value::$kind(value) => Some(value),
-                    _ => None,
-                }
+            #[inline(always)]
+            fn of(Value(number): Value) -> Option<Self> {
+                Some($of(number))
             }
         })*
     };
 }
 
-modal!(
-    Flag(bool),
-    Code(FunctionCode),
-    Number(i64),
-    Speed(f64),
-    Plane(Plane),
-    Distance(Distance),
-    Unit(Unit),
-    FeedMode(FeedMode),
-    Compensation(Compensation),
-    CutterPath(CutterPath),
-    Rotation(Rotation),
-    Length(Length),
-    Offset(WorkOffset)
-);
+modal! {
+    bool: u64::from, |number| number != 0;
+    i64: |number| number as u64, |number| number as i64;
+    f64: f64::to_bits, f64::from_bits;
+    FunctionCode: |code: FunctionCode| code.in_tenths().into(),
+        |number| FunctionCode::tenths(number as u32);
+    WorkOffset: WorkOffset::as_number, WorkOffset::of_number;
+}
+
+macro_rules! choices {
+    ($($type:ident: $($choice:ident)*;)*) => {
+        $(impl Modal for $type {
+            #[inline(always)]
+            fn value(self) -> Value {
+                // A row that lacks a choice does not compile.
+                match self {
+                    $($type::$choice => Value(self as u64),)*
+                }
+            }
+            #[inline(always)]
+            fn of(value: Value) -> Option<Self> {
+                [$($type::$choice),*].into_iter().find(|choice| choice.value() == value)
+            }
+        })*
+    };
+}
+
+choices! {
+    Plane: Xy Zx Yz;
+    Distance: Absolute Incremental;
+    Unit: Mm Inch;
+    FeedMode: PerMinute PerRevolution InverseTime;
+    Compensation: Off Left Right;
+    CutterPath: Unmoved Moved Leaving;
+    Rotation: Unsaid Clockwise Counterclockwise InDoubt Standing;
+    Length: Unsaid Called Taken Ended OfAnotherTool;
+}
 
 /// What a block that can't be read leaves of a group.
 #[derive(Clone, Copy, Debug)]
@@ -153,13 +146,6 @@ enum Unread {
     Kept,
     /// What the function makes of it.
     By(fn(Know<Value>) -> Know<Value>),
-}
-
-/// A row of the table.
-struct Row {
-    /// The value at the start of a program.
-    start: Know<Value>,
-    unread: Unread,
 }
 
 macro_rules! groups {
@@ -176,8 +162,13 @@ macro_rules! groups {
         /// Number of groups.
         const COUNT: usize = [$(Group::$group),*].len();
 
-        /// One row a group, in their order.
-        const ROWS: [Row; COUNT] = [$(Row { start: $start, unread: $unread }),*];
+        /// What a block that can't be read leaves of each, in their order.
+        const UNREAD: [Unread; COUNT] = [$($unread),*];
+
+        /// What is known of each at the start of a program, in their order.
+        fn at_start() -> [Know<Value>; COUNT] {
+            [$(begun::<$type>($start)),*]
+        }
 
         $($(#[doc = $doc])+ pub const $name: Of<$type> = Of::new(Group::$group);)*
     };
@@ -197,76 +188,78 @@ impl<T> Of<T> {
     }
 }
 
-const NEVER: Know<Value> = Know::Unknown(Source::NotCommanded);
-const OFF: Know<Value> = Know::Known(Value::Flag(false));
-const ON: Know<Value> = Know::Known(Value::Flag(true));
+/// A group that has a value at the start of a program, or that nothing has commanded.
+fn begun<T: Modal>(value: Option<T>) -> Know<Value> {
+    value.map_or(Know::Unknown(Source::NotCommanded), |value| Know::Known(value.value()))
+}
+
 use Unread::{By, Kept, Unknown};
 
 groups! {
     /// The code of the last motion.
-    MOTION / Motion: FunctionCode = NEVER, Unknown;
+    MOTION / Motion: FunctionCode = None, Unknown;
     /// The plane of arcs, cycles and cutter compensation (G17, G18, G19).
-    PLANE / Plane: Plane = NEVER, Unknown;
+    PLANE / Plane: Plane = None, Unknown;
     /// The plane is one that a single cycle or arc needed.
-    PLANE_IS_TEMPORARY / PlaneIsTemporary: bool = OFF, Kept;
+    PLANE_IS_TEMPORARY / PlaneIsTemporary: bool = Some(false), Kept;
     /// How coordinates count (G90, G91).
-    DISTANCE / Distance: Distance = Know::Known(Value::Distance(Distance::Absolute)), Unknown;
+    DISTANCE / Distance: Distance = Some(Distance::Absolute), Unknown;
     /// The unit of lengths (G20, G21).
-    UNITS / Units: Unit = NEVER, Unknown;
+    UNITS / Units: Unit = None, Unknown;
     /// X counts as the post writes it: on a lathe as a diameter, in a transformation as a radius.
-    DIAMETER_MODE / DiameterMode: bool = ON, Unknown;
+    DIAMETER_MODE / DiameterMode: bool = Some(true), Unknown;
     /// What F means (G93, G94, G95).
-    FEED_MODE / FeedMode: FeedMode = NEVER, Unknown;
+    FEED_MODE / FeedMode: FeedMode = None, Unknown;
     /// Tool center point control (G43.4, TRAORI, M128).
-    TCP / Tcp: bool = OFF, Unknown;
+    TCP / Tcp: bool = Some(false), Unknown;
     /// X, Y and Z count in a tilted work plane.
-    WORK_PLANE / WorkPlane: bool = OFF, Unknown;
+    WORK_PLANE / WorkPlane: bool = Some(false), Unknown;
     /// Cutter compensation (G40, G41, G42).
-    CUTTER_COMP / CutterComp: Compensation = Know::Known(Value::Compensation(Compensation::Off)), Unknown;
+    CUTTER_COMP / CutterComp: Compensation = Some(Compensation::Off), Unknown;
     /// Whether a motion has begun or ended it.
-    CUTTER_PATH / CutterPath: CutterPath = Know::Known(Value::CutterPath(CutterPath::Unmoved)), Kept;
+    CUTTER_PATH / CutterPath: CutterPath = Some(CutterPath::Unmoved), Kept;
     /// A canned cycle is in force: each position drills a hole.
-    CYCLE / Cycle: bool = OFF, Unknown;
+    CYCLE / Cycle: bool = Some(false), Unknown;
     /// The code of the last canned cycle.
-    CYCLE_CODE / CycleCode: FunctionCode = NEVER, Unknown;
+    CYCLE_CODE / CycleCode: FunctionCode = None, Unknown;
     /// The code of the level that cycles return to (G98, G99).
-    RETURN_LEVEL / ReturnLevel: FunctionCode = NEVER, Unknown;
+    RETURN_LEVEL / ReturnLevel: FunctionCode = None, Unknown;
     /// The tool in the spindle.
-    TOOL / Tool: i64 = NEVER, By(either_stays);
+    TOOL / Tool: i64 = None, By(either_stays);
     /// The tool that an author's T word named since the last tool change of the post.
-    NAMED_TOOL / NamedTool: i64 = NEVER, Unknown;
+    NAMED_TOOL / NamedTool: i64 = None, Unknown;
     /// The offset that was called with it.
-    TOOL_OFFSET / ToolOffset: i64 = NEVER, Unknown;
+    TOOL_OFFSET / ToolOffset: i64 = None, Unknown;
     /// A function changed the tool (M6).
-    TOOL_CHANGED / ToolChanged: bool = NEVER, Kept;
+    TOOL_CHANGED / ToolChanged: bool = None, Kept;
     /// A T word of an author changed the tool by itself, as on a turret.
-    TOOL_WORD / ToolWord: bool = NEVER, Kept;
+    TOOL_WORD / ToolWord: bool = None, Kept;
     /// Tool length offset, as far as functions have activated or canceled it (G43, G49).
-    LENGTH / Length: Length = Know::Known(Value::Length(Length::Unsaid)), Kept;
+    LENGTH / Length: Length = Some(Length::Unsaid), Kept;
     /// The offset number of the tool length offset (H).
-    LENGTH_OFFSET / LengthOffset: i64 = NEVER, Unknown;
+    LENGTH_OFFSET / LengthOffset: i64 = None, Unknown;
     /// An author named a tool length offset, or canceled it.
-    LENGTH_WORD / LengthWord: bool = NEVER, Kept;
+    LENGTH_WORD / LengthWord: bool = None, Kept;
     /// The work offset (G54).
-    WORK_OFFSET / WorkOffset: WorkOffset = NEVER, Unknown;
+    WORK_OFFSET / WorkOffset: WorkOffset = None, Unknown;
     /// The work offset that the CL file asked for.
-    ASKED_OFFSET / AskedOffset: WorkOffset = NEVER, Kept;
+    ASKED_OFFSET / AskedOffset: WorkOffset = None, Kept;
     /// How the spindle was last told to turn.
-    SPINDLE / Spindle: Rotation = Know::Known(Value::Rotation(Rotation::Unsaid)), By(rotation_unread);
+    SPINDLE / Spindle: Rotation = Some(Rotation::Unsaid), By(rotation_unread);
     /// M0 or M1 came since the spindle was turned: some machines stop it.
-    SPINDLE_HALTED / SpindleHalted: bool = OFF, Kept;
+    SPINDLE_HALTED / SpindleHalted: bool = Some(false), Kept;
     /// The sub-spindle of a lathe is the master spindle.
-    MASTER_IS_SUB / MasterIsSub: bool = NEVER, Unknown;
+    MASTER_IS_SUB / MasterIsSub: bool = None, Unknown;
     /// S is a surface speed (G96, G97).
-    SURFACE_SPEED / SurfaceSpeed: bool = NEVER, By(surface_speed_unread);
+    SURFACE_SPEED / SurfaceSpeed: bool = None, By(surface_speed_unread);
     /// The highest speed of the spindle, rev/min.
-    SPEED_LIMIT / SpeedLimit: f64 = NEVER, Kept;
+    SPEED_LIMIT / SpeedLimit: f64 = None, Kept;
     /// The code of the gear.
-    GEAR / Gear: FunctionCode = NEVER, Unknown;
+    GEAR / Gear: FunctionCode = None, Unknown;
     /// The rotary axes are clamped.
-    AXIS_CLAMP / AxisClamp: bool = OFF, Kept;
+    AXIS_CLAMP / AxisClamp: bool = Some(false), Kept;
     /// The program has ended (M2, M30).
-    PROGRAM_END / ProgramEnd: bool = OFF, Kept;
+    PROGRAM_END / ProgramEnd: bool = Some(false), Kept;
 }
 
 /// A tool that depends on block delete is one until a tool change.
@@ -280,7 +273,7 @@ fn either_stays(before: Know<Value>) -> Know<Value> {
 /// Texts of a shop are taken not to turn a spindle that runs clockwise.
 fn rotation_unread(before: Know<Value>) -> Know<Value> {
     match before {
-        Know::Known(Value::Rotation(rotation)) => Know::Known(rotation.doubted().value()),
+        Know::Known(value) => begun(Rotation::of(value).map(Rotation::doubted)),
         other => other,
     }
 }
@@ -288,7 +281,7 @@ fn rotation_unread(before: Know<Value>) -> Know<Value> {
 /// S may still be a surface speed if it was one.
 fn surface_speed_unread(before: Know<Value>) -> Know<Value> {
     match before {
-        Know::Known(Value::Flag(true)) => Know::Either([Some(Value::Flag(true)), None]),
+        Know::Known(value) if value == true.value() => Know::Either([Some(value), None]),
         Know::Known(_) => Know::Unknown(Source::Author),
         other => other,
     }
@@ -316,10 +309,10 @@ pub struct Groups {
 impl Groups {
     /// As a program starts.
     pub fn at_start() -> Self {
-        let cells = ROWS.map(|row| Cell { know: row.start, written: 0 });
+        let cells = at_start().map(|know| Cell { know, written: 0 });
         let usual = GroupSet::default();
         let mut groups = Groups { cells, usual, writes: 0, before_foreign: 0 };
-        GROUPS.into_iter().for_each(|group| groups.know_now(group, ROWS[group as usize].start));
+        GROUPS.into_iter().zip(at_start()).for_each(|(group, know)| groups.know_now(group, know));
         groups
     }
 
@@ -350,17 +343,16 @@ impl Groups {
     /// True if a group certainly has a value.
     #[inline]
     pub fn is<T: Modal>(&self, of: Of<T>, value: T) -> bool {
-        self.get(of) == Some(value)
+        match self.cells[of.group as usize].know {
+            Know::Known(known) => known == value.value(),
+            know => know.value() == Some(value.value()),
+        }
     }
 
     /// True if a group may have a value.
     #[inline]
     pub fn may_be<T: Modal>(&self, of: Of<T>, value: T) -> bool {
-        match self.cells[of.group as usize].know {
-            // Compared as its own type, which is one comparison; as `Value` it is a dozen.
-            Know::Known(known) => T::of(known) == Some(value),
-            know => know.may_be(value.value()),
-        }
+        self.cells[of.group as usize].know.may_be(value.value())
     }
 
     /// The value of any group, if it is known.
@@ -446,26 +438,26 @@ impl Groups {
         let tool_differs = tool[0] != tool[1] || offsets(self) != offsets(skipped);
         for group in GROUPS {
             let [own, other] = [&*self, skipped].map(|it| it.cells[group as usize].know);
-            let know = match (own, other) {
-                (Know::Known(Value::Rotation(one)), Know::Known(Value::Rotation(other))) => {
-                    Know::Known(one.or(other).value())
+            let know = match (group, own, other) {
+                (Group::Spindle, Know::Known(one), Know::Known(other)) => begun(
+                    Rotation::of(one).zip(Rotation::of(other)).map(|(one, other)| one.or(other)),
+                ),
+                (Group::Length, Know::Known(one), Know::Known(other)) => {
+                    begun(Length::of(one).zip(Length::of(other)).map(|(one, other)| one.or(other)))
                 }
-                (Know::Known(Value::Length(one)), Know::Known(Value::Length(other))) => {
-                    Know::Known(one.or(other).value())
-                }
-                (one, other) => one.join(other),
+                (_, one, other) => one.join(other),
             };
             self.know_now(group, know);
         }
         if tool_differs {
             // A tool with another offset is another one.
-            self.know_now(Group::Tool, Know::Either(tool.map(|tool| tool.map(Value::Number))));
+            self.know_now(Group::Tool, Know::Either(tool.map(|tool| tool.map(Modal::value))));
         }
     }
 }
 
 fn unread(group: Group, know: Know<Value>, source: Source) -> Know<Value> {
-    match ROWS[group as usize].unread {
+    match UNREAD[group as usize] {
         Unknown => Know::Unknown(source),
         Kept => know,
         By(rule) => rule(know),

@@ -1,6 +1,6 @@
 //! Sets of groups, and which values of a group are those that motions need.
 
-use super::{Group, Value};
+use super::{Group, Modal, Value};
 use crate::control_state::{Compensation, CutterPath, Distance, Rotation};
 
 /// True for a value of a group beside which motions have nothing to say or to refuse.
@@ -10,16 +10,14 @@ pub(super) fn is_usual(group: Group, value: Value) -> bool {
         AxisClamp, CutterComp, CutterPath as Path, Cycle, DiameterMode, Distance as Counts,
         PlaneIsTemporary, ProgramEnd, Spindle, SpindleHalted, Tool,
     };
-    match (group, value) {
-        (Counts, Value::Distance(distance)) => distance == Distance::Absolute,
-        (DiameterMode, Value::Flag(on)) => on,
-        (PlaneIsTemporary | Cycle | AxisClamp | SpindleHalted | ProgramEnd, Value::Flag(on)) => !on,
-        (CutterComp, Value::Compensation(side)) => side == Compensation::Off,
-        (Path, Value::CutterPath(path)) => path != CutterPath::Leaving,
-        (Spindle, Value::Rotation(rotation)) => {
-            !matches!(rotation, Rotation::Standing | Rotation::Unsaid)
-        }
-        (Tool, Value::Number(_)) => true,
+    match group {
+        Counts => value == Distance::Absolute.value(),
+        DiameterMode => value == true.value(),
+        PlaneIsTemporary | Cycle | AxisClamp | SpindleHalted | ProgramEnd => value == false.value(),
+        CutterComp => value == Compensation::Off.value(),
+        Path => value != CutterPath::Leaving.value(),
+        Spindle => ![Rotation::Standing, Rotation::Unsaid].map(Modal::value).contains(&value),
+        Tool => true,
         _ => false,
     }
 }
