@@ -15,6 +15,7 @@ mod pack;
 mod program;
 mod sample;
 mod simplify;
+mod spelled;
 mod svg;
 mod time;
 mod tools;

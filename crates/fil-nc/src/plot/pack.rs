@@ -3,6 +3,7 @@
 use fil_machine::Unit;
 
 use super::encode::{columns, json, packed};
+use super::spelled::spelled;
 use super::{Extent, InForce, Notes, Point, Stroke, Trace};
 use crate::motion::{Rate, Speed, Spindle};
 
@@ -21,18 +22,31 @@ pub(super) struct Grid {
     pub(super) min: Point,
     /// Its step, mm.
     pub(super) step: f64,
+    /// Decimals of a unit that it has.
+    pub(super) decimals: usize,
+    /// Its origin, counted in steps from zero.
+    pub(super) origin: [i64; 3],
 }
 
 impl Grid {
     /// A grid of a tenth of the last digit that programs of a unit have; coarser, where a path
     /// is too long for it.
     pub(super) fn new(extent: &Extent, unit: Unit) -> Self {
-        let mut step = if unit.is_metric() { 1e-4 } else { 1e-5 * unit.in_mm() };
+        let (mut step, mut decimals) =
+            if unit.is_metric() { (1e-4, 4) } else { (1e-5 * unit.in_mm(), 5) };
         let size = extent.size().min(f64::MAX);
         while size / step > STEPS {
             step *= 10.0;
+            decimals = usize::saturating_sub(decimals, 1);
         }
-        Grid { min: extent.min, step }
+        let origin = extent.min.map(|min| (min / step).round() as i64);
+        Grid { min: extent.min, step, decimals, origin }
+    }
+
+    /// A point as counts of the step from zero.
+    pub(super) fn counts(&self, point: &Point) -> [i64; 3] {
+        let steps = self.steps(point);
+        [0, 1, 2].map(|axis| self.origin[axis].saturating_add(steps[axis]))
     }
 
     fn steps(&self, point: &Point) -> [i64; 3] {
@@ -53,6 +67,15 @@ pub(super) fn trace(trace: &Trace, notes: &Notes, source: &str, grid: &Grid) -> 
     }));
     let causes = columns(notes.causes.iter().map(|cause| [cause.line.into(), cause.stack.into()]));
     let stacks: Vec<String> = notes.stacks.iter().map(|stack| json(stack)).collect();
+    let (text, ends) = match spelled(&notes.text, trace, grid) {
+        Some(text) => {
+            let [x, y, z] = grid.origin;
+            let decimals = grid.decimals;
+            let ends = format!("{{\"origin\":[{x},{y},{z}],\"decimals\":{decimals}}}");
+            (format!("\"{}\"", packed(&text)), ends)
+        }
+        None => (quoted(&notes.text), "null".to_string()),
+    };
     let left_out = trace.left_out.iter().take(LEFT_OUT);
     let left_out: Vec<String> =
         left_out.map(|left_out| json(&format!("line {}: {left_out}", left_out.line))).collect();
@@ -62,7 +85,8 @@ pub(super) fn trace(trace: &Trace, notes: &Notes, source: &str, grid: &Grid) -> 
         ("inForce", columns(trace.in_force.iter().map(in_force))),
         ("axes", axes),
         ("changes", changes),
-        ("text", quoted(&notes.text)),
+        ("text", text),
+        ("ends", ends),
         ("causes", causes),
         ("source", quoted(source)),
         ("sourceName", json(&notes.source_name)),

@@ -59,6 +59,23 @@ async function readLines(packed) {
   return { count, get };
 }
 
+/** A text with the numbers again for which signs stand, as they are where the motions of its lines
+ *  end: 1, or 2 for one with a zero before its point. */
+function withEnds(text, { lines, ends, total }, points, { origin, decimals }) {
+  const last = new Uint32Array(text.count + 1);
+  for (let piece = 0; piece < total; piece++) last[lines[piece]] = ends[piece] - 1;
+  const spell = (count, sign) => {
+    const digits = String(Math.abs(count)).padStart(decimals + 1, "0"), point = digits.length - decimals;
+    const whole = digits.slice(0, point), fraction = digits.slice(point).replace(/0+$/, "");
+    return `${count < 0 ? "-" : ""}${sign === "\x01" && whole === "0" && fraction ? "" : whole}.${fraction}`;
+  };
+  const get = (line) => text.get(line).replace(/([XYZ])([\x01\x02])/g, (_, letter, sign) => {
+    const axis = "XYZ".indexOf(letter);
+    return letter + spell(origin[axis] + points[axis][last[line]], sign);
+  });
+  return { count: text.count, get };
+}
+
 const readJson = async (packed) => JSON.parse(new TextDecoder().decode(await unpack(packed)));
 
 /** Pieces that are looked at as one: those beside the canvas are passed over. */
@@ -99,6 +116,7 @@ async function readTrace(packed) {
     trace.strokes[piece] = head & 3;
     trace.ends[piece] = end = trace.starts[piece] + (head >>> 3);
   }
+  if (packed.ends) trace.text = withEnds(text, trace, [xs, ys, zs], packed.ends);
   addBlocks(trace);
   return trace;
 }
