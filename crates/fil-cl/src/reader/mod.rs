@@ -187,7 +187,10 @@ impl<'r> Reader<'r> {
     /// further call gives the same error, unless [`Reader::resume`] comes between.
     #[inline]
     pub fn read(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<bool> {
-        if self.at_line && !self.seeking.is_due(self.number) && self.read_plain_goto(record) {
+        if self.at_line
+            && !self.seeking.is_due(self.number)
+            && (self.read_plain_goto(record) || self.read_repeated(record))
+        {
             return Ok(true);
         }
         self.read_any(vocab, record)

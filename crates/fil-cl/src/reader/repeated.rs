@@ -24,19 +24,32 @@ const LONGEST_STATEMENT: usize = 4 * LONGEST;
 /// A statement, line ends included, and the record it makes.
 #[derive(Default)]
 struct Known {
+    /// Empty as long as none is kept.
     text: Vec<u8>,
     lines: u32,
     record: Record,
 }
 
+impl Known {
+    /// The statement is what a text begins with. It ends with its last line, so that no longer one
+    /// begins alike.
+    #[inline]
+    fn begins(&self, text: &[u8]) -> bool {
+        !self.text.is_empty() && text.starts_with(&self.text)
+    }
+}
+
 /// The statements known by now, each in the place its first line names.
 pub(super) struct Repeated {
     known: Box<[[Known; KEPT]; PLACES]>,
+    /// Place and number of the two that came last: one of them comes next in most files.
+    last: [(usize, usize); 2],
 }
 
 impl Default for Repeated {
     fn default() -> Self {
-        Repeated { known: Box::new(std::array::from_fn(|_| Default::default())) }
+        let known = Box::new(std::array::from_fn(|_| Default::default()));
+        Repeated { known, last: [(0, 0); 2] }
     }
 }
 
@@ -44,14 +57,25 @@ impl Repeated {
     /// Makes `record` what the statement at the start of `text` makes, when that is
     /// known; gives its length and the number of its lines.
     #[inline]
-    pub(super) fn read(&self, text: &[u8], record: &mut Record) -> Option<(usize, u32)> {
-        let head = &text[..text.len().min(LONGEST)];
-        let length = memchr::memchr(b'\n', head)? + 1;
-        let known = self.known[place(&head[..length])]
-            .iter()
-            .find(|known| known.text.len() >= length && text.starts_with(&known.text))?;
+    pub(super) fn read(&mut self, text: &[u8], record: &mut Record) -> Option<(usize, u32)> {
+        let [last, before] = self.last;
+        if !self.known[last.0][last.1].begins(text) {
+            let found =
+                if self.known[before.0][before.1].begins(text) { before } else { self.find(text)? };
+            self.last = [found, last];
+        }
+        let (place, number) = self.last[0];
+        let known = &self.known[place][number];
         copy(&known.record, record);
         Some((known.text.len(), known.lines))
+    }
+
+    /// Place and number of the statement at the start of `text`.
+    fn find(&self, text: &[u8]) -> Option<(usize, usize)> {
+        let head = &text[..text.len().min(LONGEST)];
+        let length = memchr::memchr(b'\n', head)? + 1;
+        let place = place(&head[..length]);
+        Some((place, self.known[place].iter().position(|known| known.begins(text))?))
     }
 
     /// Keeps a whole statement of so many lines, unless its record depends on the

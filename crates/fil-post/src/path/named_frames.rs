@@ -35,8 +35,11 @@ impl NamedFrames {
         record: &Record,
         has_moved: bool,
     ) -> Option<&mut Named> {
-        let now = Frame::new(layout, record);
         let known = self.words.iter().position(|named| named.word == word);
+        if known.is_some_and(|at| self.words[at].now.is_of(record)) {
+            return None;
+        }
+        let now = Frame::new(layout, record);
         let at = known.unwrap_or_else(|| {
             self.words.push(Named {
                 word: word.to_string(),
@@ -121,6 +124,11 @@ pub(crate) struct Frame {
 impl Frame {
     fn new(layout: Option<Layout>, record: &Record) -> Self {
         Frame { layout, items: record.data.clone(), text: record.text.clone() }
+    }
+
+    /// A record names it by the same items, as most files do at each operation.
+    fn is_of(&self, record: &Record) -> bool {
+        self.items == record.data && self.text == record.text
     }
 
     /// 3x4: its axes and its origin as columns; `None` where the items make none.
