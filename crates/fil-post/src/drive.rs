@@ -9,6 +9,7 @@ use crate::control::{Control, Held};
 use crate::dispatch::{self, Handler};
 use crate::errors::PostCode;
 use crate::items::Items;
+use crate::lane::Lane;
 use crate::no_effect;
 use crate::operation::End;
 use crate::operation::{POINT, Target};
@@ -26,7 +27,7 @@ use fil_machine::Commons;
 use nalgebra::{Point3, Vector3};
 
 /// Number of data words of a motion to a point, and of one with a tool axis.
-const MOTION: [usize; 2] = [5, 8];
+pub(crate) const MOTION: [usize; 2] = [5, 8];
 
 impl Post {
     /// A post for a machine.
@@ -36,7 +37,7 @@ impl Post {
     pub fn new(commons: Commons) -> Result<Self> {
         let mut path = Path::default();
         path.texts = Places::of(&commons);
-        Ok(Post { control: Control::new(commons)?, path })
+        Ok(Post { control: Control::new(commons)?, path, lane: Lane::default() })
     }
 
     /// Carries out one record.
@@ -59,15 +60,26 @@ impl Post {
     /// As [`Post::process`].
     #[inline]
     pub fn begin(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<()> {
+        if self.goes_straight_on(record)? {
+            return Ok(());
+        }
         self.control.refresh()?;
         if word::trans::machine_has_changed(self) {
             word::trans::follow_machine(self)?;
         }
+        self.blocks_come_of(record);
+        carry_out(self, record, vocabulary)?;
+        self.came_the_long_way(record);
+        Ok(())
+    }
+
+    /// Blocks are caused by a record from now on.
+    #[inline]
+    pub(crate) fn blocks_come_of(&mut self, record: &Record) {
         if self.control.tape.noted.is_some() {
             let cause = self.control.tape.cause;
             self.control.block.cause = Cause { made_by_fil: record.line == 0, ..cause };
         }
-        carry_out(self, record, vocabulary)
     }
 
     /// Writes some more blocks of the last record.

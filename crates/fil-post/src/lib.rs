@@ -33,6 +33,7 @@ pub mod editing;
 pub mod errors;
 pub mod euler;
 pub mod items;
+mod lane;
 pub mod levels;
 pub mod no_effect;
 pub mod noted;

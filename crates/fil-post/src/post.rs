@@ -9,6 +9,7 @@ use crate::control::Control;
 use crate::control::needs::{Act, Part};
 use crate::errors::PostCode;
 use crate::items::Items;
+use crate::lane::Lane;
 use crate::noted::Noted;
 use crate::operation::Feed;
 use crate::path::{Choice, Path};
@@ -32,6 +33,8 @@ pub struct Post {
     pub control: Control,
     /// Where the CL file stands.
     pub path: Path,
+    /// Whether points may go the straight lane.
+    pub(crate) lane: Lane,
 }
 
 impl Post {

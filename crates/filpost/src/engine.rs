@@ -63,11 +63,15 @@ impl<'o, 'r> Engine<'o, 'r> {
         if observed || outside.map.is_some() {
             outside.post.observe();
         }
+        let has_sections = !shared.module.has_no_section();
+        if !has_sections && outside.debugger.is_none() && outside.editor.is_none() {
+            outside.post.allow_lane();
+        }
         Engine {
             outside,
             vocabulary: shared.vocabulary.clone(),
             machine,
-            has_sections: !shared.module.has_no_section(),
+            has_sections,
             furthest: 0,
             fuel: shared.limits.fuel,
             record: Record::default(),

@@ -12,6 +12,7 @@ mod families;
 mod format;
 mod grbl;
 mod interop;
+mod lane;
 mod letters;
 mod linearization;
 mod mill_turn;

@@ -161,6 +161,11 @@ impl Course {
         Ok(())
     }
 
+    /// No arc waits for the line behind it.
+    pub fn is_judged(&self) -> bool {
+        self.arc.is_none()
+    }
+
     /// An arc of so many degrees follows that begins and ends in these directions; the tool axis
     /// is `None` where lines along it are cuts as any others.
     pub fn arc(
