@@ -66,7 +66,7 @@ impl FunctionCode {
     /// format has no digit after it.
     #[inline]
     pub fn check(self, letter: Letter, format: &NumberFormat) -> Result<()> {
-        let fits = self.tenths / 10 < 10u32.pow(u32::from(format.whole.min(8)));
+        let fits = format.holds_whole(self.tenths / 10);
         if fits && (format.decimals > 0 || self.tenths.is_multiple_of(10)) {
             return Ok(());
         }

@@ -190,6 +190,12 @@ impl NumberFormat {
         MachineCode::Overflow.diag(message)
     }
 
+    /// True for a whole number of no more digits than there are before the point.
+    #[inline]
+    pub fn holds_whole(&self, number: u32) -> bool {
+        i64::from(number) < LIMITS[usize::from(self.whole)]
+    }
+
     /// The value a scaled integer stands for.
     #[inline]
     pub fn unscale(&self, scaled: i64) -> f64 {

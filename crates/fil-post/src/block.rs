@@ -55,6 +55,12 @@ impl Block {
         self.present == 0 && self.g.is_empty() && self.m.is_empty()
     }
 
+    /// True when it has functions.
+    #[inline]
+    pub fn has_functions(&self) -> bool {
+        !(self.g.is_empty() && self.m.is_empty())
+    }
+
     /// True when it has words other than functions.
     pub fn has_numbers(&self) -> bool {
         self.present != 0
@@ -98,13 +104,17 @@ impl Block {
     /// The tape positions of its words and of its functions, in tape order.
     #[inline]
     fn positions_and_functions(&self, addresses: &Addresses) -> impl Iterator<Item = TapePosition> {
-        let mut present = self.present;
-        for (letter, codes) in [(G, &self.g), (M, &self.m)] {
-            if let (Some(position), true) = (addresses.position(letter), !codes.is_empty()) {
-                present |= position.bit();
-            }
-        }
-        TapePosition::of_set(present)
+        let functions = if self.has_functions() { self.of_functions(addresses) } else { 0 };
+        TapePosition::of_set(self.present | functions)
+    }
+
+    /// The set of the tape positions of its functions.
+    fn of_functions(&self, addresses: &Addresses) -> u64 {
+        let of = |letter, codes: &[(FunctionCode, Cause)]| {
+            let position = addresses.position(letter).filter(|_| !codes.is_empty());
+            position.map_or(0, TapePosition::bit)
+        };
+        of(G, &self.g) | of(M, &self.m)
     }
 
     /// Its words in tape order, each with its value and its cause.
@@ -254,9 +264,10 @@ impl Block {
     /// More digits than the address has, or a tenth where it writes whole numbers.
     #[inline]
     pub fn check_functions(&self, addresses: &Addresses) -> Result<()> {
-        if self.g.is_empty() && self.m.is_empty() {
-            return Ok(());
-        }
+        if self.has_functions() { self.check_each_function(addresses) } else { Ok(()) }
+    }
+
+    fn check_each_function(&self, addresses: &Addresses) -> Result<()> {
         for (letter, codes) in [(G, &self.g), (M, &self.m)] {
             if let Some(format) = addresses.format(letter).filter(|_| !codes.is_empty()) {
                 codes.iter().try_for_each(|(code, _)| code.check(letter, format))?;

@@ -339,6 +339,7 @@ impl Tape {
     }
 
     /// Notes the word that is written next, of a block that starts at byte `block`.
+    #[inline]
     fn note(&mut self, letter: u8, cause: Cause, block: usize) {
         if let Some(noted) = &mut self.noted {
             noted.word(letter, self.text.len() - block, cause, self.cause);

@@ -15,20 +15,24 @@ impl ControlState {
     /// Learns from a block of words.
     #[inline]
     pub fn learn_block(&mut self, block: &Block, codes: &Codes, addresses: &Addresses) {
-        if !block.g_codes().is_empty() {
-            for (code, _) in block.g_codes() {
-                let word = |letter| block.value(letter, addresses);
-                self.learn_code(*code, codes, Source::Post, word);
-            }
-        }
-        for (code, _) in block.m_codes() {
-            self.learn_auxiliary(*code, codes, Source::Post);
+        if block.has_functions() {
+            self.learn_functions_of(block, codes, addresses);
         }
         if !self.doubts.is_empty() {
             self.trust_words(block, addresses);
         }
         if !self.is(DISTANCE, Distance::Absolute) {
             self.doubt_axes();
+        }
+    }
+
+    fn learn_functions_of(&mut self, block: &Block, codes: &Codes, addresses: &Addresses) {
+        for (code, _) in block.g_codes() {
+            let word = |letter| block.value(letter, addresses);
+            self.learn_code(*code, codes, Source::Post, word);
+        }
+        for (code, _) in block.m_codes() {
+            self.learn_auxiliary(*code, codes, Source::Post);
         }
     }
 
