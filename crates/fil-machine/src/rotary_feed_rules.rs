@@ -1,5 +1,7 @@
 //! What the settings say about the feed of motions in which a rotary axis turns.
 
+use std::sync::LazyLock;
+
 use crate::address::Addresses;
 use crate::commons::{Commons, Dbl};
 use crate::letter::letters;
@@ -31,7 +33,10 @@ pub struct RotaryFeedRules {
 impl Default for RotaryFeedRules {
     /// Those of a machine of which nothing is said.
     fn default() -> Self {
-        RotaryFeedRules::from_commons(&Addresses::default(), &Commons::absent(), true)
+        static UNSAID: LazyLock<RotaryFeedRules> = LazyLock::new(|| {
+            RotaryFeedRules::from_commons(&Addresses::default(), &Commons::absent(), true)
+        });
+        *UNSAID
     }
 }
 

@@ -6,6 +6,9 @@ use std::ops::Range;
 /// Bytes asked for at once.
 const CHUNK: usize = 256 * 1024;
 
+/// Bytes asked for first: a short text needs no large buffer.
+const FIRST_CHUNK: usize = 8 * 1024;
+
 /// The byte order mark of UTF-8.
 const MARK: &[u8] = b"\xEF\xBB\xBF";
 
@@ -231,7 +234,8 @@ impl<'r> Lines<'r> {
             self.next -= start;
             self.end -= start;
             if self.buffer.len() - self.end < CHUNK / 2 {
-                self.buffer.resize(self.buffer.len() + CHUNK, 0);
+                let more = self.buffer.len().clamp(FIRST_CHUNK, CHUNK);
+                self.buffer.resize(self.buffer.len() + more, 0);
             }
         }
         loop {

@@ -1,5 +1,6 @@
 //! The machine: runs the global area once, then sections for records.
 
+mod bank;
 mod careful;
 mod files;
 mod library;
@@ -25,6 +26,7 @@ use crate::host::{FileMode, Host, Site};
 use crate::module::{ChunkId, Constant, Module, SectionId};
 use crate::value::{EMPTY, Slot, Texts, Value};
 
+use bank::Bank;
 pub use output::Values;
 pub use view::{Held, StackFrame, View};
 
@@ -115,7 +117,7 @@ struct State {
 #[derive(Debug)]
 pub struct Interpreter {
     module: Arc<Module>,
-    registers: Box<Registers>,
+    registers: Bank,
     state: State,
     limits: Limits,
     functions: Arc<Functions>,
@@ -143,10 +145,7 @@ struct Vm<'a, H: Host + ?Sized> {
 impl Interpreter {
     /// A machine for a module compiled with the same functions.
     pub fn new(module: Arc<Module>, limits: Limits, functions: Arc<Functions>) -> Self {
-        let registers = vec![Slot::UNSET; 1 << 16].into_boxed_slice();
-        let Ok(mut registers) = <Box<Registers>>::try_from(registers) else {
-            unreachable!("the slice has the length of the array")
-        };
+        let mut registers = Bank::default();
         let mut state = State::default();
         let elements = module.arrays.last().map_or(0, |array| array.start + array.len);
         state.arrays.resize(elements, Slot::UNSET);
@@ -241,9 +240,10 @@ impl Interpreter {
             outcome: Outcome::default(),
             at_end: false,
         };
-        match vm.execute(&mut self.registers, chunk) {
+        let registers = self.registers.get();
+        match vm.execute(registers, chunk) {
             Ok(()) => Ok(vm.outcome),
-            Err(diag) => Err(vm.failed(&mut self.registers, diag)),
+            Err(diag) => Err(vm.failed(registers, diag)),
         }
     }
 }

@@ -29,7 +29,7 @@ impl Interpreter {
     /// Exchanges its values with those of a machine that is in the middle of a section.
     pub fn exchange_values(&mut self, values: &mut Values) {
         let count = values.registers.len();
-        self.registers[..count].swap_with_slice(&mut values.registers);
+        self.registers.get()[..count].swap_with_slice(&mut values.registers);
         std::mem::swap(&mut self.state, &mut values.state);
     }
 

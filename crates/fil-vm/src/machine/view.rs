@@ -203,7 +203,7 @@ impl Interpreter {
     ) -> View<'a> {
         View {
             module: &self.module,
-            registers: &mut self.registers,
+            registers: self.registers.get(),
             state: &mut self.state,
             text_bytes: self.limits.text_bytes,
             spot: None,
