@@ -1,6 +1,7 @@
 //! Machines to begin from.
 
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex};
 
 use filpost::{Commons, Error, OptionKind, Program, ready};
 
@@ -65,7 +66,7 @@ impl Base {
     }
 
     /// The same post with one other value of an option, for each value there is.
-    pub fn with_other_options(&self, fil: &[(String, String)]) -> Vec<Arc<Base>> {
+    pub fn with_other_options(&self, built: &Built<'_>) -> Vec<Arc<Base>> {
         let Some(post) = &self.post else { return Vec::new() };
         let mut others = Vec::new();
         for option in self.program.options() {
@@ -73,13 +74,13 @@ impl Base {
             for value in values(&option.kind).into_iter().filter(|value| *value != now) {
                 let mut options = self.options.clone();
                 options.retain(|(name, _)| *name != option.name);
-                let mut other = Base::ready(post, options.clone(), fil).ok();
+                let mut other = built.ready(post, &options);
                 if other.as_ref().is_some_and(|other| !other.has(&option.name, &value)) {
                     options.push((option.name.clone(), value));
                     options.sort();
-                    other = Base::ready(post, options, fil).ok();
+                    other = built.ready(post, &options);
                 }
-                others.extend(other.map(Arc::new));
+                others.extend(other);
             }
         }
         others
@@ -89,6 +90,26 @@ impl Base {
     fn has(&self, option: &str, value: &str) -> bool {
         let options = self.program.options();
         options.iter().any(|it| it.name == option && it.value.to_string() == value)
+    }
+}
+
+/// Ready posts with values of options, each built once.
+pub(crate) struct Built<'t> {
+    fil: &'t [(String, String)],
+    bases: Mutex<BTreeMap<(String, Vec<(String, String)>), Option<Arc<Base>>>>,
+}
+
+impl<'t> Built<'t> {
+    /// None yet; they will have the FIL of a task.
+    pub fn new(fil: &'t [(String, String)]) -> Built<'t> {
+        Built { fil, bases: Mutex::default() }
+    }
+
+    /// A ready post with values of options; `None` where it can't be built.
+    fn ready(&self, post: &str, options: &[(String, String)]) -> Option<Arc<Base>> {
+        let build = || Base::ready(post, options.to_vec(), self.fil).ok().map(Arc::new);
+        let Ok(mut bases) = self.bases.lock() else { return build() };
+        bases.entry((post.into(), options.to_vec())).or_insert_with(build).clone()
     }
 }
 

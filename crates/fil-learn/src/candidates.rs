@@ -240,6 +240,11 @@ fn acts_on_programs(row: &Location) -> bool {
         && row.unit != ValueUnit::Plain
 }
 
+/// A setting whose values are a short list.
+pub(crate) fn has_few_values(key: Key) -> bool {
+    matches!(key, Key::Setting(index) if !has_many_values(change::row(index)))
+}
+
 /// Each number could be a value, not only a few.
 fn has_many_values(row: &Location) -> bool {
     !matches!(row.unit, ValueUnit::Flag | ValueUnit::Choice | ValueUnit::Char | ValueUnit::Plain)

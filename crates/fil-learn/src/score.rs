@@ -79,6 +79,15 @@ pub(crate) fn without_last_end(text: &[u8]) -> &[u8] {
     text.strip_suffix(b"\r").unwrap_or(text)
 }
 
+/// How far the text of a program is from `proven`; `None` where that is `limit` or more.
+pub(crate) fn score_of_text(own: &[u8], proven: &Cut, limit: f64) -> Option<f64> {
+    // Any other bytes cost that much: the words need not be looked at.
+    if limit <= BYTES && without_last_end(own) != proven.bytes {
+        return None;
+    }
+    score(&Cut::new(own), proven, limit)
+}
+
 /// How far `own` is from `proven`; `None` where that is `limit` or more.
 pub(crate) fn score(own: &Cut, proven: &Cut, limit: f64) -> Option<f64> {
     if own.bytes == proven.bytes {

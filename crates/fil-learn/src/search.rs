@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use filpost::{Diag, Error};
 
-use crate::bases::{Base, Bases};
+use crate::bases::{Base, Bases, Built};
 use crate::candidates::{self, Alternatives};
 use crate::change::{self, Changes, Key, Machine};
 use crate::facts::Facts;
@@ -42,7 +42,8 @@ const MOST_PAIRS: usize = 1500;
 pub(crate) fn learn(task: &Task<'_>) -> Result<Learned, Error> {
     let bench = Bench::new(task);
     let alternatives = Alternatives::new(&task.keep, candidates::ready_posts(&bench));
-    let search = Search { bench: &bench, task, alternatives };
+    let built = Built::new(&task.fil);
+    let search = Search { bench: &bench, task, alternatives, built };
     let bases = search.bases()?;
     let mut states = search.starts(&bases);
     if states.is_empty() {
@@ -74,6 +75,8 @@ pub(crate) fn learn(task: &Task<'_>) -> Result<Learned, Error> {
     let Some(best) = best else { return Err(no_base(&bases)) };
     let best = search.rebase(search.take_back(best), &bases);
     let (best, others) = search.explain(best);
+    // A better explanation may do without what was put before it.
+    let best = search.take_back(best);
     let undecided = undecided::find(&bench, &search.alternatives, &best, &others);
     Ok(Learned::new(&bench, best, undecided))
 }
@@ -89,6 +92,7 @@ struct Search<'s, 't> {
     bench: &'s Bench<'t>,
     task: &'s Task<'t>,
     alternatives: Alternatives,
+    built: Built<'s>,
 }
 
 impl Search<'_, '_> {
@@ -151,20 +155,20 @@ impl Search<'_, '_> {
     /// Options of the post, one after the other, as long as that helps.
     fn options(&self, mut state: State) -> State {
         loop {
-            let others = state.machine.base.with_other_options(&self.task.fil);
+            let others = state.machine.base.with_other_options(&self.built);
             let machines: Vec<Machine> =
                 others.iter().map(|base| state.machine.over(base)).collect();
-            match self.best_of(&machines, &state) {
+            let trials = self.bench.attempt_all(&machines, &state);
+            match self.best_of(&machines, &trials) {
                 Some(better) => state = self.read_off(better),
                 None => return state,
             }
         }
     }
 
-    /// The best of some machines, if it is better than a state.
-    fn best_of(&self, machines: &[Machine], state: &State) -> Option<State> {
-        let trials = self.bench.attempt_all(machines, state);
-        let (_, at) = better(&trials).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    /// The best of some machines, if one is better than the state that they were tried against.
+    fn best_of(&self, machines: &[Machine], trials: &[Trial]) -> Option<State> {
+        let (_, at) = better(trials).min_by(|a, b| a.0.total_cmp(&b.0))?;
         self.bench.state(machines[at].clone())
     }
 
@@ -305,6 +309,8 @@ impl Search<'_, '_> {
     fn in_twos(&self, mut state: State) -> State {
         let candidates = self.candidates(&state, Reach::Right);
         let single: Vec<&Changes> = candidates.iter().filter(|c| c.len() == 1).collect();
+        let instead = instead(&state, &single);
+        self.put_best(&mut state, &instead);
         let machines: Vec<Machine> =
             single.iter().map(|changes| state.machine.with(changes)).collect();
         let trials = self.bench.attempt_all(&machines, &state);
@@ -336,19 +342,23 @@ impl Search<'_, '_> {
             if self.bench.is_stopped() || state.is_equal() {
                 break;
             }
-            if let Some(better) = self.best_of(&self.exchanged(&state, key), &state) {
+            let Some((machines, trials)) = self.exchanged(&state, key) else { continue };
+            if let Some(better) = self.best_of(&machines, &trials) {
                 state = better;
             }
         }
         state
     }
 
-    /// The machines of a state with another change in place of one.
-    fn exchanged(&self, state: &State, key: Key) -> Vec<Machine> {
-        let Some(without) = self.bench.state(state.machine.without(key)) else { return Vec::new() };
+    /// The machines of a state with another change in place of one, tried.
+    fn exchanged(&self, state: &State, key: Key) -> Option<(Vec<Machine>, Vec<Trial>)> {
+        let without = self.bench.state(state.machine.without(key))?;
         let mut candidates = self.candidates(&without, Reach::Wrong);
         candidates.extend(texts::proposals(self.bench, &without));
-        candidates.iter().map(|changes| without.machine.with(changes)).collect()
+        let machines: Vec<Machine> =
+            candidates.iter().map(|changes| without.machine.with(changes)).collect();
+        let trials = self.bench.attempt_without(&machines, state, &without);
+        Some((machines, trials))
     }
 
     /// The likeliest of the explanations that make the same programs, and the others: each has
@@ -360,10 +370,8 @@ impl Search<'_, '_> {
             if self.bench.is_stopped() || !state.machine.changes.contains_key(&key) {
                 continue;
             }
-            let machines = self.exchanged(&state, key);
-            let trials = self.bench.attempt_all(&machines, &state);
-            let best = better(&trials).min_by(|a, b| a.0.total_cmp(&b.0));
-            if let Some(better) = best.and_then(|(_, at)| self.bench.state(machines[at].clone())) {
+            let Some((machines, trials)) = self.exchanged(&state, key) else { continue };
+            if let Some(better) = self.best_of(&machines, &trials) {
                 if better.distance() < state.distance() {
                     others.clear();
                 }
@@ -426,6 +434,20 @@ fn capability(machine: &Machine) -> usize {
         row.name.ends_with("_code") && change::number(commons, *index) != filpost::commons::EMPTY
     };
     (0..filpost::locations::TABLE.len()).filter(has).count()
+}
+
+/// Other values of the settings that are put, each with a second setting: one value may stand for
+/// what two settings do (arcs without signs are cut at quadrants).
+fn instead(state: &State, single: &[&Changes]) -> Vec<Changes> {
+    let is_put =
+        |key: Key| candidates::has_few_values(key) && state.machine.changes.contains_key(&key);
+    let mut found = Vec::new();
+    for first in single.iter().filter(|change| is_put(change[0].0)) {
+        let second = single.iter().filter(|second| second[0].0 != first[0].0);
+        let second = second.filter(|second| may_belong_together(first[0].0, second[0].0));
+        found.extend(second.map(|second| [first.as_slice(), second.as_slice()].concat()));
+    }
+    found
 }
 
 /// Two settings may need each other: they are of one group, and their names begin alike.

@@ -148,31 +148,43 @@ impl<'t> Bench<'t> {
 
     /// Tries a machine against a state that it shall be better than.
     pub fn attempt(&self, machine: &Machine, against: &State) -> Trial {
+        self.attempt_in_order(machine, against, 0..self.pairs.len())
+    }
+
+    /// The same, with the pairs in an order: those that are likely to be worse first.
+    fn attempt_in_order(
+        &self,
+        machine: &Machine,
+        against: &State,
+        order: impl Iterator<Item = usize>,
+    ) -> Trial {
         let program = machine.commons().map(|commons| machine.base.program.with_machine(commons));
         let Some(Ok(program)) = program else { return Trial::Impossible };
         let price = machine.price();
-        let (mut score, mut inert) = (price, true);
-        for (pair, before) in against.programs.iter().enumerate() {
+        let mut distances = against.scores.clone();
+        let (mut known, mut inert) = (price, true);
+        for pair in order {
+            let before = against.programs[pair].as_ref();
             let nc = self.post(&program, pair);
             let bytes = nc.as_deref().map(score::without_last_end);
-            if bytes == before.as_ref().map(|cut| cut.bytes.as_slice()) {
-                score += against.scores[pair];
-                continue;
+            if bytes != before.map(|cut| cut.bytes.as_slice()) {
+                inert = false;
+                let proven = &self.pairs[pair].proven;
+                let limit = against.score - known - LEAST_GAIN;
+                distances[pair] = match nc {
+                    Some(nc) => match score::score_of_text(&nc, proven, limit) {
+                        Some(distance) => distance,
+                        None => return Trial::Worse,
+                    },
+                    None => refused(proven),
+                };
             }
-            inert = false;
-            let proven = &self.pairs[pair].proven;
-            let limit = against.score - score - LEAST_GAIN;
-            match nc {
-                Some(nc) => match score::score(&Cut::new(&nc), proven, limit) {
-                    Some(distance) => score += distance,
-                    None => return Trial::Worse,
-                },
-                None => score += refused(proven),
-            }
-            if score >= against.score {
+            known += distances[pair];
+            if !inert && known >= against.score {
                 return Trial::Worse;
             }
         }
+        let score = price + distances.iter().sum::<f64>();
         match () {
             () if score < against.score - LEAST_GAIN => Trial::Better(score),
             () if inert => Trial::Inert,
@@ -182,8 +194,23 @@ impl<'t> Bench<'t> {
 
     /// Tries many machines at once; the results are in their order.
     pub fn attempt_all(&self, machines: &[Machine], against: &State) -> Vec<Trial> {
+        self.attempt_without(machines, against, against)
+    }
+
+    /// The same with machines that are made of a state without a change: the pairs that need the
+    /// change come first.
+    pub fn attempt_without(
+        &self,
+        machines: &[Machine],
+        against: &State,
+        without: &State,
+    ) -> Vec<Trial> {
+        let mut order: Vec<usize> = (0..self.pairs.len()).collect();
+        let bytes =
+            |state: &State, pair: usize| state.programs[pair].as_ref().map(|cut| cut.bytes.clone());
+        order.sort_by_cached_key(|pair| bytes(without, *pair) == bytes(against, *pair));
         self.in_threads(machines.len(), Trial::Worse, |index| {
-            self.attempt(&machines[index], against)
+            self.attempt_in_order(&machines[index], against, order.iter().copied())
         })
     }
 
