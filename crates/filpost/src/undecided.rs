@@ -4,6 +4,7 @@
 //! the CL file is posted once more with all of them. If that is another program, the list is
 //! halved until the settings that make the difference are found.
 
+use std::collections::BTreeMap;
 use std::io::Cursor;
 
 use fil_diag::{Diag, TextSpan};
@@ -48,9 +49,13 @@ pub(crate) fn warnings(
     let unequal = (!unequal.is_empty()).then(|| {
         warning(format!("proven programs come out differently: {}", unequal.join(", ")), 1)
     });
-    let found = std::mem::take(&mut search.found).into_iter().map(|(setting, line)| {
-        let setting = setting.replace('\n', " and ");
-        warning(format!("with {setting} this would be another program"), line)
+    let mut by_line: BTreeMap<u32, Vec<String>> = BTreeMap::new();
+    for (setting, line) in search.found {
+        by_line.entry(line).or_default().push(setting.replace('\n', " and "));
+    }
+    let found = by_line.into_iter().map(|(line, settings)| {
+        let settings = settings.join(" or ");
+        warning(format!("with {settings} this would be another program"), line)
     });
     unequal.into_iter().chain(found).collect()
 }
