@@ -91,6 +91,8 @@ struct Hidden {
     can_be_known: Vec<bool>,
     /// The parts that are learned from at another place: their CL files and programs.
     moved: Vec<(String, Vec<u8>)>,
+    /// The tools of these parts in other orders: their CL files and programs.
+    recombined: Vec<(String, Vec<u8>)>,
     /// Other posts of this kind that make the same learned programs.
     open: Vec<Program>,
 }
@@ -111,6 +113,8 @@ struct Totals {
     /// Learned parts at another place: equal and without a warning, equal and warned of, wrong
     /// and quiet, all.
     moved: [usize; 4],
+    /// Their tools in other orders, where nothing is open.
+    recombined: [usize; 4],
     /// Programs that the shown groups make: right ones, and all.
     known: (usize, usize),
     shown: (usize, usize),
@@ -215,17 +219,28 @@ fn hide(random: &mut Random, parts: &[Part], options: &[String]) -> Hidden {
         let (shown, is_shown) = shown::shown(base, options, &groups, &learned, parts);
         let of_shown = program(base, options, &shown);
         let can_be_known = held_out.iter().map(|(part, nc)| {
-            of_shown.as_ref().is_some_and(|program| !shown::changes(program, &parts[*part], nc))
+            of_shown.as_ref().is_some_and(|program| !shown::changes(program, &parts[*part].cl, nc))
         });
         let can_be_known = can_be_known.collect();
-        let moved = learned.iter().filter_map(|(part, _)| {
-            let cl = shown::moved(&parts[*part].cl);
-            let (nc, _) = post(&post_of_all, &cl)?;
-            Some((cl, nc))
-        });
-        let moved = moved.collect();
+        let cls: Vec<&str> = learned.iter().map(|(part, _)| parts[*part].cl.as_str()).collect();
+        let with_program = |cl: String| post(&post_of_all, &cl).map(|(nc, _)| (cl, nc));
+        let moved = cls.iter().map(|cl| shown::moved(cl)).filter_map(with_program).collect();
         let open = shown::open_variants(base, options, &settings, &learned, parts);
-        return Hidden { base, settings, learned, held_out, is_shown, can_be_known, moved, open };
+        let recombined = shown::recombined(&cls).into_iter().filter_map(with_program);
+        let recombined = recombined
+            .filter(|(cl, nc)| !open.iter().any(|open| shown::changes(open, cl, nc)))
+            .collect();
+        return Hidden {
+            base,
+            settings,
+            learned,
+            held_out,
+            is_shown,
+            can_be_known,
+            moved,
+            recombined,
+            open,
+        };
     }
 }
 
@@ -276,7 +291,7 @@ fn judge(args: &Args, number: usize, hidden: &Hidden, parts: &[Part], totals: &m
         totals.quietly_wrong += usize::from(!alike && !is_warned);
         totals.warned_equal += usize::from(is_equal && is_warned);
         totals.known.0 += usize::from(is_equal && *is_known);
-        let is_open = || hidden.open.iter().any(|open| shown::changes(open, &parts[*part], nc));
+        let is_open = || hidden.open.iter().any(|open| shown::changes(open, &parts[*part].cl, nc));
         let is_needless = is_equal && is_warned && !is_open();
         totals.needless += usize::from(is_needless);
         if args.verbose && is_equal {
@@ -293,14 +308,25 @@ fn judge(args: &Args, number: usize, hidden: &Hidden, parts: &[Part], totals: &m
         }
     }
     totals.held_out.0 += equal;
-    for (cl, nc) in &hidden.moved {
-        let made = built.as_ref().ok().and_then(|program| post(program, cl));
-        let (is_equal, is_warned) = made.map_or((false, true), |(ours, warnings)| {
-            (ours == *nc, warnings.iter().any(|said| said.starts_with("W0758")))
-        });
-        let at = [(true, false), (true, true), (false, false)];
-        let at = at.iter().position(|kind| *kind == (is_equal, is_warned));
-        at.into_iter().chain([3]).for_each(|at| totals.moved[at] += 1);
+    let known_work = [
+        ("moved", &hidden.moved, &mut totals.moved),
+        ("recombined", &hidden.recombined, &mut totals.recombined),
+    ];
+    for (kind, programs, counts) in known_work {
+        for (cl, nc) in programs {
+            let made = built.as_ref().ok().and_then(|program| post(program, cl));
+            let (ours, mut warnings) = made.unwrap_or_default();
+            let is_refused = ours.is_empty();
+            warnings.retain(|said| said.starts_with("W0758"));
+            let is_warned = is_refused || !warnings.is_empty();
+            let at = [(true, false), (true, true), (false, false)];
+            let at = at.iter().position(|kind| *kind == (ours == *nc, is_warned));
+            at.into_iter().chain([3]).for_each(|at| counts[at] += 1);
+            if args.verbose && at != Some(0) {
+                println!("  {kind} (equal: {}, refused: {is_refused}) {warnings:?}", ours == *nc);
+                tell_difference(nc, &ours);
+            }
+        }
     }
     let all = equal == hidden.held_out.len();
     totals.shown.0 += usize::from(hidden.is_shown && all);
@@ -421,11 +447,16 @@ impl Totals {
             self.needless,
             percent(self.needless, held)
         );
-        let [quiet, warned, wrong, all] = self.moved;
-        println!(
-            "learned parts at another place: {quiet} of {all} equal without a warning, {warned} equal and warned of ({:.0} %), {wrong} quietly wrong",
-            percent(warned, quiet + warned),
-        );
+        let known_work = [
+            ("learned parts at another place", self.moved),
+            ("their tools in other orders, nothing open", self.recombined),
+        ];
+        for (title, [quiet, warned, wrong, all]) in known_work {
+            println!(
+                "{title}: {quiet} of {all} equal without a warning, {warned} equal and warned of ({:.0} %), {wrong} quietly wrong",
+                percent(warned, quiet + warned),
+            );
+        }
         println!("settings without a proof: {}", self.unproven);
         let median = self.times.get(self.times.len() / 2).copied().unwrap_or_default();
         let worst = self.times.last().copied().unwrap_or_default();

@@ -40,12 +40,12 @@ pub fn open_variants(
 }
 
 fn changes_any(program: &filpost::Program, programs: &Programs, parts: &[Part]) -> bool {
-    programs.iter().any(|(part, nc)| changes(program, &parts[*part], nc))
+    programs.iter().any(|(part, nc)| changes(program, &parts[*part].cl, nc))
 }
 
-/// The program of a part is another one, or refused.
-pub fn changes(program: &filpost::Program, part: &Part, nc: &[u8]) -> bool {
-    post(program, &part.cl).is_none_or(|(other, _)| other != nc)
+/// The program of a CL file is another one, or refused.
+pub fn changes(program: &filpost::Program, cl: &str, nc: &[u8]) -> bool {
+    post(program, cl).is_none_or(|(other, _)| other != nc)
 }
 
 /// A part at another place along X: the same work with other numbers.
@@ -61,3 +61,28 @@ pub fn moved(cl: &str) -> String {
 
 /// How far, in the unit of the part.
 const MOVE: f64 = 7.5;
+
+/// The tools of some parts one after the other, from each of them on: work that is known, in
+/// another order. Parts in another unit than the first one are left out.
+pub fn recombined(cls: &[&str]) -> Vec<String> {
+    let cut: Vec<(Vec<&str>, Vec<&str>)> = cls.iter().map(|cl| head_and_tools(cl)).collect();
+    let orders = (1..cut.len()).map(|from| [&cut[from..], &cut[..from]].concat());
+    let joined = orders.map(|parts| {
+        let unit = unit(&parts[0].0);
+        let tools = parts.iter().filter(|(head, _)| unit == self::unit(head));
+        let lines = parts[0].0.iter().chain(tools.flat_map(|(_, tools)| tools)).chain(&["FINI"]);
+        lines.map(|line| format!("{line}\n")).collect::<String>()
+    });
+    joined.collect()
+}
+
+/// The lines before the first tool, and those from it to FINI.
+fn head_and_tools(cl: &str) -> (Vec<&str>, Vec<&str>) {
+    let lines: Vec<&str> = cl.lines().filter(|line| line.trim() != "FINI").collect();
+    let first = lines.iter().position(|line| line.starts_with("LOADTL")).unwrap_or(lines.len());
+    (lines[..first].to_vec(), lines[first..].to_vec())
+}
+
+fn unit<'l>(head: &[&'l str]) -> Option<&'l str> {
+    head.iter().find(|line| line.starts_with("UNITS")).copied()
+}
