@@ -39,11 +39,14 @@ pub enum MachineCommand {
         /// Every setting, with value, unit, meaning and evidence
         #[arg(long)]
         all: bool,
+        /// The settings as JSON, by their names: value, default, unit, choices, what the ready posts have
+        #[arg(long)]
+        json: bool,
         /// The chain of axes, from the part to the tool
-        #[arg(long, conflicts_with_all = ["all", "prefix"])]
+        #[arg(long, conflicts_with_all = ["all", "prefix", "json"])]
         chain: bool,
         /// The chain of axes as an SVG picture
-        #[arg(long, conflicts_with_all = ["all", "prefix", "chain"])]
+        #[arg(long, conflicts_with_all = ["all", "prefix", "json", "chain"])]
         chain_svg: bool,
         /// Only settings whose name starts with this; where neither -p nor -m is given it may be
         /// a machine, as diff takes it

@@ -1,6 +1,7 @@
 //! `filpost machine`
 
 mod diff;
+mod json;
 mod schema;
 mod show;
 
@@ -38,8 +39,8 @@ pub fn run(args: &MachineArgs) -> Result<Status, Error> {
         MachineCommand::Show { chosen, chain_svg: true, .. } => {
             show::chain(chosen, chain_drawing::svg)?;
         }
-        MachineCommand::Show { chosen, all, prefix, .. } => {
-            show::run(chosen, prefix.as_deref(), *all)?;
+        MachineCommand::Show { chosen, all, json, prefix, .. } => {
+            show::run(chosen, prefix.as_deref(), *all, *json)?;
         }
         MachineCommand::Diff { first, second } => return diff::run(first, second),
         MachineCommand::Schema => output::print(format!("{:#}\n", schema::schema()).as_bytes())?,

@@ -8,27 +8,34 @@ use filpost::locations::{LIMITS_CHECK, Location, TABLE, default_commons};
 use filpost::simulate_settings::SimulateSetting;
 use filpost::{Commons, Diag, Error, Kind, Levels, Program, explain, ready, stored, user_blocks};
 
-use super::{LETTERS, address, diff};
+use super::{LETTERS, address, diff, json};
 use crate::args::Chosen;
 use crate::errors::CommandCode;
 use crate::{output, setup, summary};
 
 /// Shows every setting whose name starts with `prefix`; without one, what the machine
-/// sets otherwise than the default machine.
+/// sets otherwise than the default machine. As text, or as JSON.
 ///
 /// # Errors
 /// Files that can't be read; wrong settings; a prefix that no setting has.
-pub fn run(chosen: &Chosen, prefix: Option<&str>, all: bool) -> Result<(), Error> {
+pub fn run(chosen: &Chosen, prefix: Option<&str>, all: bool, as_json: bool) -> Result<(), Error> {
     let is_chosen = chosen.post.is_some() || chosen.machine.is_some();
     let machine = prefix.filter(|name| !is_chosen && is_machine(name));
     if let Some(name) = machine {
         let (set, option) = (chosen.set.clone(), chosen.option.clone());
-        return run(&Chosen { set, option, ..diff::chosen(Path::new(name)) }, None, all);
+        return run(&Chosen { set, option, ..diff::chosen(Path::new(name)) }, None, all, as_json);
     }
     let program = program(chosen)?;
     if let Some(prefix) = prefix.filter(|prefix| !begins_a_setting(prefix)) {
         let message = format!("no setting begins with `{prefix}`");
         return Err(Error::Setup(vec![Diag::new(CommandCode::NoSetting, message)]));
+    }
+    let is_every = all || prefix.is_some();
+    if as_json {
+        let (commons, default) = (program.commons(), default_commons());
+        let only = |row: &Location| is_every || json::differs(row, commons, &default);
+        let settings = json::settings(commons, prefix.unwrap_or(""), only);
+        return output::print(format!("{settings:#}\n").as_bytes());
     }
     match prefix {
         None if !all => output::print_with(|out| differences(out, program.commons())),

@@ -37,6 +37,25 @@ fn a_machine_is_shown_by_its_name_alone() {
 }
 
 #[test]
+fn settings_are_shown_as_json() {
+    let place = Folder::new();
+    let shown = place.run(&["machine", "show", "--json", "-p", "okuma-mill"]);
+    let settings: serde_json::Value = serde_json::from_str(&shown.out).expect("JSON");
+    let code = &settings["tool.length_code"];
+    assert_eq!(
+        (&code["value"], &code["default"], &code["unit"]),
+        (&56.into(), &43.into(), &"code".into())
+    );
+    let seen = code["in_ready_posts"].as_array().expect("a list");
+    assert!([43, 56].iter().all(|code| seen.contains(&(*code).into())), "{seen:?}");
+    let all = place.run(&["machine", "show", "--json", "-p", "okuma-mill", "tape."]);
+    let settings: serde_json::Value = serde_json::from_str(&all.out).expect("JSON");
+    let cases = &settings["tape.letter_case"]["choices"];
+    assert!(cases[0]["meaning"].is_string(), "{cases}");
+    assert!(settings.get("tool.length_code").is_none());
+}
+
+#[test]
 fn the_option_file_of_a_lathe_is_laid_over_a_lathe_that_is_named() {
     let option_file = "OPTION FILE: UNCL01.P01\nOLD LATHE\n INTCOM:(LOCATION,VALUE)\n 1982     13\n   0      \
          0\n RELCOM:\n 0 0\n DBLCOM:\n 0 0\n";
