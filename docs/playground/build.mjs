@@ -2,7 +2,8 @@
 // the packages of the page of the studio (crates/filpost-studio/page).
 //
 // What comes out is one folder of static files: the page of the studio, the modules, and what is shown at first. The
-// page opens from a server or from a disk, so nothing is fetched: the modules and the examples are scripts.
+// page opens from a server, which gives the modules as they are, or from a disk, where nothing can be fetched: there the
+// modules are scripts, and so are the examples and the pages of the post words in both.
 import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -15,16 +16,14 @@ const page = join(here, "../../crates/filpost-studio/page/dist");
 mkdirSync(folder, { recursive: true });
 for (const name of ["studio.js", "studio.css", "view.js"]) copyFileSync(join(page, name), join(folder, name));
 const own = '<script src="studio.js"></script>';
-const before = ["filpost.wasm.js", "examples.js", "words.js"].map((name) => `<script src="${name}"></script>`);
 const html = readFileSync(join(page, "index.html"), "utf8");
 if (!html.includes(own)) throw new Error("the page of the studio has another script");
-writeFileSync(join(folder, "index.html"), html.replace(own, `${before.join("\n")}\n${own}`));
+writeFileSync(join(folder, "index.html"), html.replace(own, `<script src="examples.js"></script>\n${own}`));
 
-for (const [name, key] of [["filpost", "bytes"], ["filpost-plot", "plotBytes"]]) {
-  const letters = readFileSync(join(modules, `${name}.wasm`)).toString("base64");
-  const bytes = `() => Uint8Array.from(atob("${letters}"), (letter) => letter.charCodeAt(0))`;
-  const script = `(globalThis.filpost ??= {}).${key} = ${bytes};\n`;
-  writeFileSync(join(folder, `${name}.wasm.js`), script);
+for (const name of ["filpost.wasm", "filpost-plot.wasm"]) {
+  copyFileSync(join(modules, name), join(folder, name));
+  const letters = readFileSync(join(modules, name)).toString("base64");
+  writeFileSync(join(folder, `${name}.js`), `(globalThis.filpost ??= {})["${name}"] = "${letters}";\n`);
 }
 
 const list = examples(join(here, "../../corpus"));

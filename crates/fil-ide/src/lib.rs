@@ -32,6 +32,7 @@ mod inlay;
 pub mod machine;
 mod navigate;
 mod positions;
+pub mod repairs;
 mod script;
 mod signature;
 mod symbols;

@@ -41,14 +41,18 @@ pub fn fixes(name: &str, text: &Text, range: Range) -> Vec<Fix> {
     let here = |finding: &Finding| {
         finding.range.start.line <= range.end.line && finding.range.end.line >= range.start.line
     };
-    let found = findings(name, text).into_iter().filter(here).filter_map(|finding| {
-        let meant = finding.hint.strip_prefix("did you mean ")?.split('?').next()?;
-        let (bytes, new) = meant_edit(text, finding.range.start.line as usize, meant)?;
-        let place = Place { file: name.to_string(), range: text.range(bytes) };
-        let edits = vec![Edit { place, text: new }];
-        Some(Fix { title: format!("write {meant}"), edits, finding, preferred: true })
-    });
-    found.collect()
+    let mut found = Vec::new();
+    for finding in findings(name, text).into_iter().filter(here) {
+        let Some(meant) = finding.hint.strip_prefix("did you mean ") else { continue };
+        for meant in meant.split('?').next().unwrap_or_default().split(" or ") {
+            let line = finding.range.start.line as usize;
+            let Some((bytes, new)) = meant_edit(text, line, meant) else { continue };
+            let place = Place { file: name.to_string(), range: text.range(bytes) };
+            let (title, edits) = (format!("write {meant}"), vec![Edit { place, text: new }]);
+            found.push(Fix { title, edits, finding: finding.clone(), preferred: true });
+        }
+    }
+    found
 }
 
 /// The edit that makes the key of a line another one: its own word, or the table above it.
@@ -184,7 +188,8 @@ pub fn edit(text: &Text, key: &str, value: Option<&str>) -> Result<(Range, Strin
         return Err("a value over several lines is edited in the text".to_string());
     }
     let found = (0..text.line_count()).find(|line| {
-        key_at(text, *line).is_some_and(|(own, _)| own == key) && text.line(*line).contains('=')
+        key_at(text, *line).is_some_and(|(own, _)| own == key.replace(' ', ""))
+            && text.line(*line).contains('=')
     });
     let (bytes, new) = match (found, value) {
         (None, None) => return Err(format!("{key} is not in this file")),
@@ -206,8 +211,9 @@ pub fn edit(text: &Text, key: &str, value: Option<&str>) -> Result<(Range, Strin
 
 /// Where a new key goes: behind the last line of its table, else in a new table at the end.
 fn added(text: &Text, key: &str, value: &str) -> (std::ops::Range<usize>, String) {
-    let (table, name) = match key.rsplit_once('.') {
-        Some((table, name)) => (Some(table), name),
+    // A name in quotes may have points: `effects."G65 P1.5"`.
+    let (table, name) = match key.find(".\"").or_else(|| key.rfind('.')) {
+        Some(at) => (Some(&key[..at]), &key[at + 1..]),
         None => (None, key),
     };
     let mut of_table = (0..text.line_count()).filter(|line| {

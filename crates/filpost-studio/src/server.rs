@@ -127,6 +127,7 @@ impl Desk {
     fn answer(&self, stream: &mut TcpStream) {
         let _ = stream.set_read_timeout(Some(PATIENCE));
         let _ = stream.set_write_timeout(Some(PATIENCE));
+        let _ = stream.set_nodelay(true);
         if let Err(refusal) = self.try_answer(stream) {
             refuse(stream, refusal);
         }
@@ -194,12 +195,17 @@ impl Desk {
         if let Some(answer) = own {
             return Ok(answer);
         }
-        Ok(self.works.watched(request, |request, watch| {
+        let names = request.as_object_mut().and_then(|fields| fields.remove("names"));
+        let mut answer = self.works.watched(request, |request, watch| {
             // A fault of one request must not end the studio with what is not saved in its page.
             let work = AssertUnwindSafe(|| filpost_wasm::answer_watched(request, watch));
             catch_unwind(work)
                 .unwrap_or_else(|_| json!({ "failure": "an internal fault of filpost" }))
-        }))
+        });
+        if let Some(names) = names {
+            self.texts.name_in(&mut answer, names);
+        }
+        Ok(answer)
     }
 }
 

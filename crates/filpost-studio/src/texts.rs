@@ -1,12 +1,16 @@
-//! Long texts that the page has sent before: later requests name them, or say what is different in them.
+//! Long texts that went to the page or came from it before: later requests and answers name them, or say what is
+//! different in them.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// Texts that are kept; the page keeps as many.
-const MOST: usize = 4;
+const MOST: usize = 8;
+
+/// Shortest text of an answer that is named, bytes.
+const LONG: usize = 100_000;
 
 /// Longest name of a text, bytes.
 const LONGEST_NAME: usize = 64;
@@ -50,12 +54,45 @@ impl Texts {
                 [before, text, behind].concat().into()
             }
         };
+        self.keep(name, &whole);
+        Some(whole)
+    }
+
+    /// Names the long texts of an answer. `names` has for each field `{"keep": NAME}` with the name that the text gets, and
+    /// `of` where the page has another one that may be like it. In place of the text the answer has `{"keep": NAME, "text": …}`,
+    /// with `of`, `from` and `to` as in a request, and there `line`, how many lines stand before `from`: it and `to` are
+    /// starts of lines, or the end. Texts beyond ASCII go as they are, as the page counts no bytes.
+    pub fn name_in(&self, answer: &mut Value, names: Value) {
+        let (Some(answer), Value::Object(names)) = (answer.as_object_mut(), names) else { return };
+        for (field, wanted) in names {
+            let Some(Value::String(text)) = answer.get(&field) else { continue };
+            let Some(name) = wanted["keep"].as_str().filter(|name| name.len() <= LONGEST_NAME)
+            else {
+                continue;
+            };
+            if text.len() < LONG || !text.is_ascii() {
+                continue;
+            }
+            let old = wanted["of"].as_str().and_then(|of| self.find(of));
+            let said = match old.as_deref().map(|old| (old, lines_between(old, text))) {
+                None => json!({ "keep": name, "text": text }),
+                Some((old, (from, end))) => json!({
+                    "keep": name, "of": wanted["of"], "from": from, "to": old.len() - end,
+                    "line": memchr::memchr_iter(b'\n', &text.as_bytes()[..from]).count(),
+                    "text": text[from..text.len() - end],
+                }),
+            };
+            self.keep(name, &Arc::from(text.as_str()));
+            answer.insert(field, said);
+        }
+    }
+
+    fn keep(&self, name: &str, text: &Arc<str>) {
         let mut texts = self.texts();
-        texts.push_back((name.to_string(), Arc::clone(&whole)));
+        texts.push_back((name.to_string(), Arc::clone(text)));
         if texts.len() > MOST {
             texts.pop_front();
         }
-        Some(whole)
     }
 
     fn find(&self, name: &str) -> Option<Arc<str>> {
@@ -67,10 +104,24 @@ impl Texts {
     }
 }
 
+/// How many bytes two texts have in common at their starts and at their ends, in whole lines.
+fn lines_between(old: &str, new: &str) -> (usize, usize) {
+    let (old, new) = (old.as_bytes(), new.as_bytes());
+    let from = same(old.iter(), new.iter());
+    let from = memchr::memrchr(b'\n', &new[..from]).map_or(0, |at| at + 1);
+    let end = same(old[from..].iter().rev(), new[from..].iter().rev());
+    // The first line that is the same begins behind the end of the one before.
+    let end = memchr::memchr(b'\n', &new[new.len() - end..]).map_or(0, |at| end - at - 1);
+    (from, end)
+}
+
+fn same<'a>(one: impl Iterator<Item = &'a u8>, other: impl Iterator<Item = &'a u8>) -> usize {
+    one.zip(other).take_while(|(a, b)| a == b).count()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::json;
 
     /// The field `cl` of a request whose text is said.
     fn cl(texts: &Texts, said: Value) -> Option<Value> {
@@ -88,8 +139,8 @@ mod tests {
         let change = json!({ "keep": "b", "of": "a", "from": 7, "to": 8, "text": "23" });
         assert_eq!(cl(&texts, change), Some(json!("GOTO / 23")));
         assert_eq!(cl(&texts, json!({ "kept": "b" })), Some(json!("GOTO / 23")));
-        for name in ["c", "d", "e"] {
-            cl(&texts, json!({ "keep": name, "text": "" }));
+        for name in 0..MOST - 1 {
+            cl(&texts, json!({ "keep": name.to_string(), "text": "" }));
         }
         assert_eq!(cl(&texts, json!({ "kept": "a" })), None);
         assert_eq!(cl(&texts, json!({ "kept": "b" })), Some(json!("GOTO / 23")));
@@ -111,5 +162,41 @@ mod tests {
         let mut request = json!({ "do": "files" });
         assert!(texts.put_into(&mut request).is_ok());
         assert_eq!(request, json!({ "do": "files" }));
+    }
+
+    /// What an answer says of its text, which is named.
+    fn nc(texts: &Texts, text: &str, names: Value) -> Value {
+        let mut answer = json!({ "nc": text });
+        texts.name_in(&mut answer, json!({ "nc": names }));
+        answer["nc"].take()
+    }
+
+    #[test]
+    fn a_long_text_of_an_answer_is_said_by_the_lines_that_differ() {
+        let texts = Texts::default();
+        let row = |at: usize| format!("N{at} X{at}.\r\n");
+        let old: String = (0..10_000).map(row).collect();
+        assert_eq!(nc(&texts, &old, json!({ "keep": "a" })), json!({ "keep": "a", "text": old }));
+        // Lines that change, go, come, and none.
+        let changes = [(5..7, "N5 X9.\r\n"), (9_990..10_000, ""), (0..0, "%\r\n"), (7..7, "")];
+        for (number, (gone, new)) in changes.into_iter().enumerate() {
+            let starts = |line: usize| (0..line).map(|at| row(at).len()).sum::<usize>();
+            let text = format!("{}{new}{}", &old[..starts(gone.start)], &old[starts(gone.end)..]);
+            let name = format!("b{number}");
+            let said = nc(&texts, &text, json!({ "keep": name, "of": "a" }));
+            let place = |key: &str| said[key].as_u64().unwrap() as usize;
+            let (before, behind) = (&old[..place("from")], &old[place("to")..]);
+            let made = said["text"].as_str().unwrap();
+            assert_eq!(format!("{before}{made}{behind}"), text, "{said}");
+            assert_eq!(place("line"), before.lines().count());
+            assert!(before.is_empty() || before.ends_with('\n'));
+            assert!(made.len() < 100, "{said}");
+            assert_eq!(cl(&texts, json!({ "kept": name })), Some(json!(text)));
+        }
+        // Short texts and those beyond ASCII go as they are.
+        let letters = "é\n".repeat(LONG);
+        for text in ["G0 X1.\n", &letters] {
+            assert_eq!(nc(&texts, text, json!({ "keep": "c", "of": "a" })), json!(text));
+        }
     }
 }

@@ -3,6 +3,7 @@
 use filpost::audit::as_json;
 use serde_json::Value;
 
+use crate::diagnostics::repair_findings;
 use crate::fields::Fields;
 use crate::job::Job;
 use crate::{Fault, Misuse, refused};
@@ -16,5 +17,7 @@ pub(crate) fn audit(fields: Fields) -> Result<Value, Misuse> {
 fn audited(job: &Job) -> Result<Value, Fault> {
     let program = job.program()?;
     let (_, audit) = job.start(&program)?.post_audited(&job.cl)?;
-    Ok(as_json(&audit))
+    let mut answer = as_json(&audit);
+    repair_findings(&mut answer);
+    Ok(answer)
 }

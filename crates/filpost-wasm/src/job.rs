@@ -57,6 +57,12 @@ impl Job {
         Ok(self.builder()?.build()?)
     }
 
+    /// The machine alone; none where it can't be read.
+    #[cfg(feature = "post")]
+    pub fn machine(&self) -> Option<filpost::Commons> {
+        self.machine.builder().build_machine().ok()
+    }
+
     /// A builder with machine and FIL.
     pub fn builder(&self) -> Result<Builder, Fault> {
         let setup = |diag: Box<Diag>| Error::Setup(vec![*diag]);

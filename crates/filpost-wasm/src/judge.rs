@@ -7,6 +7,7 @@ use filpost::verify::as_json;
 use filpost::{CodePage, Error, tape_style};
 use serde_json::{Value, json};
 
+use crate::diagnostics::repair_findings;
 use crate::fields::Fields;
 use crate::job::Job;
 use crate::machine::MachineOf;
@@ -28,7 +29,9 @@ fn verified(job: &Job, nc: &str) -> Result<Value, Fault> {
     let run = job.start(&program)?;
     let (report, reference) =
         run.verify_source(cl, (&source, "the program"), Allowed::default())?;
-    Ok(as_json(&report, reference))
+    let mut answer = as_json(&report, reference);
+    repair_findings(&mut answer);
+    Ok(answer)
 }
 
 /// Answers with `equal` and the `differences` of two programs, `nc` and `other`, in words; `lines` are those of

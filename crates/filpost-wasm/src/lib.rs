@@ -24,6 +24,8 @@
 
 #[cfg(feature = "plot")]
 mod audit;
+#[cfg(feature = "plot")]
+mod behind;
 #[cfg(target_family = "wasm")]
 mod border;
 #[cfg(feature = "debug")]
@@ -156,6 +158,8 @@ fn read(request: Value, watch: &Watch) -> Result<Value, Misuse> {
         #[cfg(feature = "plot")]
         "audit" => audit::audit(fields)?,
         #[cfg(feature = "plot")]
+        "behind" => behind::behind(fields)?,
+        #[cfg(feature = "plot")]
         "compare" => judge::compare(fields)?,
         #[cfg(feature = "plot")]
         "motions" => motions::motions(fields)?,
@@ -188,4 +192,10 @@ fn words(mut fields: Fields) -> Result<Value, Misuse> {
 fn ready() -> Value {
     let posts = filpost::ready::READY.iter();
     posts.map(|post| json!({ "name": post.name, "machine": post.machine })).collect()
+}
+
+/// A range as `[line, character, line, character]`, from 0.
+#[cfg(any(feature = "post", feature = "plot", feature = "navigate"))]
+fn places(range: fil_ide::Range) -> [u32; 4] {
+    [range.start.line, range.start.character, range.end.line, range.end.character]
 }

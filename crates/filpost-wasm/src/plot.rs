@@ -86,7 +86,16 @@ impl Plot {
         let mut numbers = HashMap::new();
         let mut line = 0;
         for origin in &self.origins {
-            line = origin[0].as_u64().map_or(line + 1, |line| line as u32);
+            if let Some(row) = origin.as_u64() {
+                // A program has no more lines than letters.
+                let row = row.min(self.nc.as_ref().map_or(0, String::len) as u64) as u32;
+                notes
+                    .causes
+                    .extend((1..=row).map(|next| LineCause { line: line + next, stack: 0 }));
+                line += row;
+                continue;
+            }
+            line = origin[0].as_u64().map_or(line, |line| line as u32);
             let stack = *numbers.entry(origin[2].to_string()).or_insert_with(|| {
                 let stack = self.stack(&origin[2]);
                 if stack.is_empty() {

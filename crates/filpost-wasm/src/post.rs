@@ -1,9 +1,9 @@
 //! Posting: the NC program and what made each of its blocks.
 
-use filpost::{Event, Origin, Program, Report};
+use filpost::{Commons, Diag, Event, Origin, Program, Report};
 use serde_json::{Value, json};
 
-use crate::diagnostics::all;
+use crate::diagnostics::all_repaired;
 use crate::job::Job;
 use crate::watch::Watch;
 use crate::{Fault, refused};
@@ -20,39 +20,60 @@ struct Posted {
 /// program is not in UTF-8, `encoding` names how it is and `bytes` has a character for each byte,
 /// U+0000 to U+00FF: it is they that go to the control.
 pub(crate) fn post(job: &Job, watch: &Watch) -> Value {
+    let refused = |fault: Fault, warnings: &[Diag], machine: Option<&Commons>| match fault {
+        Fault::Setup(error) => json!({
+            "errors": all_repaired(error.diags(), machine, &job.cl_name),
+            "warnings": all_repaired(warnings, machine, &job.cl_name),
+        }),
+        misuse => refused(&misuse, &[]),
+    };
     let program = match job.program() {
         Ok(program) => program,
-        Err(fault) => return refused(&fault, &[]),
+        Err(fault) => return refused(fault, &[], job.machine().as_ref()),
     };
+    let machine = Some(program.commons());
     let posted = match run(job, &program, watch) {
         Ok(posted) => posted,
-        Err(fault) => return refused(&fault, program.warnings()),
-    };
-    let names = program.fil_files();
-    // Most lines of a long program are of the next record on the next line: a page reads them without an object each.
-    let (mut line, mut record) = (0, 0);
-    let origin = |origin: &Origin| {
-        let is_next = (origin.line, origin.record) == (line + 1, record + 1);
-        (line, record) = (origin.line, origin.record);
-        if is_next && origin.fil.is_empty() {
-            return json!(0);
-        }
-        let fil = origin.fil.iter().map(|at| json!([names.get(usize::from(at.file)), at.line]));
-        json!([line, record, fil.collect::<Vec<_>>()])
+        Err(fault) => return refused(fault, program.warnings(), machine),
     };
     let page = program.nc_page();
     let mut answer = json!({
         "nc": page.decode_all(&posted.nc),
-        "origins": posted.origins.iter().map(origin).collect::<Vec<_>>(),
+        "origins": origins(&posted.origins, &program.fil_files()),
         "records": posted.report.records,
         "blocks": posted.report.blocks,
-        "warnings": all(program.warnings().iter().chain(&posted.report.warnings)),
+        "warnings": all_repaired(
+            program.warnings().iter().chain(&posted.report.warnings), machine, &job.cl_name,
+        ),
     });
     if !page.is_utf8() {
         answer["encoding"] = page.name().into();
         answer["bytes"] = posted.nc.iter().map(|byte| char::from(*byte)).collect::<String>().into();
     }
     answer
+}
+
+/// What made each line, as an answer says it: CL line, record and FIL lines. Most lines of a long program are of the
+/// next record on the next CL line: a row of those is their number.
+fn origins(found: &[Origin], names: &[String]) -> Vec<Value> {
+    let (mut said, mut line, mut record, mut row) = (Vec::new(), 0, 0, 0u64);
+    for origin in found {
+        let is_next = (origin.line, origin.record) == (line + 1, record + 1);
+        (line, record) = (origin.line, origin.record);
+        if is_next && origin.fil.is_empty() {
+            row += 1;
+            continue;
+        }
+        if row > 0 {
+            said.push(json!(std::mem::take(&mut row)));
+        }
+        let fil = origin.fil.iter().map(|at| json!([names.get(usize::from(at.file)), at.line]));
+        said.push(json!([line, record, fil.collect::<Vec<_>>()]));
+    }
+    if row > 0 {
+        said.push(json!(row));
+    }
+    said
 }
 
 fn run(job: &Job, program: &Program, watch: &Watch) -> Result<Posted, Fault> {

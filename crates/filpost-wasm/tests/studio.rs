@@ -309,3 +309,26 @@ fn names_are_found_and_get_another_one() {
     assert!(format("CIMFIL/ON,COOLNT\nXX=1\nCIMFIL/OFF\nFINI\n")["text"].is_string());
     assert!(format("IF (\n")["why"].is_string());
 }
+
+#[test]
+fn each_word_of_a_block_has_what_is_behind_it() {
+    let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
+    let fil = "CIMFIL/ON,LOADTL\nPOSTN/OUT,M,77\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
+    let request = json!({
+        "do": "post", "ready": "fanuc-mill", "cl": cl, "fil": [{ "name": "a.fil", "text": fil }],
+    });
+    let nc = ask(request.clone())["nc"].as_str().unwrap().to_string();
+    let behind = |text: &str| {
+        let mut request = request.clone();
+        request["do"] = json!("behind");
+        request["nc_line"] = json!(nc.lines().position(|line| line.contains(text)).unwrap() + 1);
+        let answer = ask(request);
+        answer["words"].as_array().unwrap_or_else(|| panic!("{answer}")).clone()
+    };
+    let words = behind("X1.");
+    let of = |text: &str| words.iter().find(|word| word["text"] == text).unwrap();
+    assert_eq!((&of("X1.")["line"], &of("X1.")["word"]), (&json!(4), &json!(6)));
+    assert_eq!((&of("F200.")["line"], &of("F200.")["fil"]), (&json!(3), &json!([])));
+    let of_script = behind("M77");
+    assert_eq!(of_script.last().unwrap()["fil"], json!([["a.fil", 2]]));
+}

@@ -44,8 +44,8 @@ export class Auditing {
 
   /** Faults of the post and blocks that break a rule, for the list of findings. */
   findings() {
-    return (this.report?.findings ?? []).map(({ message, nc_line: ncLine, cl_line: line }) => ({
-      source: "audit", severity: "warning", code: "audit", message, hint: "", fixes: [], ncLine,
+    return (this.report?.findings ?? []).map(({ message, nc_line: ncLine, cl_line: line, repairs: fixes }) => ({
+      source: "audit", severity: "warning", code: "audit", message, hint: "", fixes, ncLine,
       file: this.posting.part, line: line ?? this.posting.origin(ncLine)?.cl,
     }));
   }

@@ -16,6 +16,8 @@ export class Cases {
     this.files = files;
     this.posting = posting;
     this.ask = ask;
+    /** The keys of the texts that were read. */
+    this.read = new Map();
   }
 
   /** The case.toml files. */
@@ -25,7 +27,12 @@ export class Cases {
 
   /** The keys of a case. */
   async keys(name) {
-    const { case: keys, why } = await this.ask({ do: "case", text: await this.files.read(name) });
+    const text = await this.files.read(name);
+    if (this.read.get(name)?.text !== text) {
+      const { case: keys, why } = await this.ask({ do: "case", text });
+      this.read.set(name, { text, keys, why });
+    }
+    const { keys, why } = this.read.get(name);
     if (!keys) throw new Error(why);
     return keys;
   }
@@ -47,7 +54,9 @@ export class Cases {
     const fil = [keys.fil ?? []].flat().map((each) => joined(folderOf(name), each));
     await Promise.all(fil.filter((each) => this.files.has(each)).map((each) => this.files.read(each)));
     const kept = KEPT.filter((key) => key !== "ready" && keys[key] !== undefined);
-    return { name, simulate: keys.simulate, fil, keys: Object.fromEntries(kept.map((key) => [key, keys[key]])) };
+    const compat = keys.compat ? joined(folderOf(name), keys.compat) : null;
+    if (compat && this.files.has(compat)) await this.files.read(compat);
+    return { name, simulate: keys.simulate, fil, compat, keys: Object.fromEntries(kept.map((key) => [key, keys[key]])) };
   }
 
   /** The program that a case must give; null where it has none. */

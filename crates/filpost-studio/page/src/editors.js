@@ -172,7 +172,7 @@ export function showFindings(view, findings) {
     const end = Math.max(begin, place(doc, toLine ?? line, to));
     // The end of a line has no character that could be marked: the last one is.
     if (begin === end) begin = Math.max(doc.lineAt(begin).from, begin - 1);
-    return { from: begin, to: end, severity, message: `${code}: ${message}` };
+    return { from: begin, to: end, severity: ["error", "warning"].includes(severity) ? severity : "info", message: `${code}: ${message}` };
   });
   found.sort((a, b) => a.from - b.from);
   view.dispatch(setDiagnostics(view.state, found));
@@ -302,4 +302,12 @@ export function setText(view, text) {
   while (end < shorter - from && old[old.length - 1 - end] === text[text.length - 1 - end]) end += 1;
   const changes = { from, to: old.length - end, insert: text.slice(from, text.length - end) };
   view.dispatch({ changes, annotations: fromOutside.of(true) });
+}
+
+/** Changes lines of a text: behind `line` of them `gone` ones go, and `made` come. */
+export function setLines(view, { line, gone, made }) {
+  const { doc } = view.state, isEnd = line + gone >= doc.lines;
+  const from = doc.line(line + 1).from, to = isEnd ? doc.length : doc.line(line + gone + 1).from;
+  const insert = isEnd ? made.join("\n") : made.map((each) => `${each}\n`).join("");
+  view.dispatch({ changes: { from, to, insert }, annotations: fromOutside.of(true) });
 }

@@ -1,6 +1,10 @@
 // All that is wrong or doubtful: of posting, of the texts, of the check against the CL file, and of others who judge.
+import { tell } from "./dialogs.js";
 import { debounced, signal } from "./dom.js";
 import { applyEdits, kindOf } from "./files.js";
+
+/** A statement of FIL or CL that writes blocks by itself, on one line. */
+const WRITES = /^\s*(POSTN|INSERT)\b[^$]*$/i;
 
 /** Longest program that is checked by itself, characters. */
 const MOST_CHECKED = 3_000_000;
@@ -8,9 +12,9 @@ const MOST_CHECKED = 3_000_000;
 const ORDER = { error: 0, warning: 1, advice: 2, info: 2, note: 3 };
 
 export class Findings {
-  /** `judges` have findings of their own: the stock that is cut, the audit. */
-  constructor(files, posting, judges, ask) {
-    Object.assign(this, { files, posting, judges, ask });
+  /** `judges` have findings of their own: the stock that is cut, the audit. `form` sets and shows settings. */
+  constructor(files, posting, judges, ask, form) {
+    Object.assign(this, { files, posting, judges, ask, form });
     this.posted = [];
     this.ofTexts = [];
     this.checked = [];
@@ -43,10 +47,15 @@ export class Findings {
     if (!answer.verdict) {
       this.verdict = `The program can't be checked: ${(answer.errors?.[0]?.message ?? answer.misuse)}`;
     } else {
-      this.checked = answer.findings.map((found) => ({
-        source: "verify", severity: "warning", code: "verify", message: found.message, hint: "", fixes: [],
-        ncLine: found.nc_line, file: this.posting.part, line: found.cl_line,
+      const found = answer.findings.map((finding) => ({
+        source: "verify", severity: "warning", code: "verify", message: finding.message, hint: "", fixes: finding.repairs,
+        ncLine: finding.nc_line, file: this.posting.part, line: finding.cl_line,
       }));
+      const open = answer.not_compared.map(({ cl_line: line, what, repairs }) => ({
+        source: "verify", severity: "note", code: "verify", message: `Not compared: ${what}`, hint: "", fixes: repairs,
+        file: this.posting.part, line,
+      }));
+      this.checked = [...found, ...open];
       this.verdict = {
         agrees: `Checked against the CL file: all ${answer.motions.asked} motions agree.`,
         partly: "Checked against the CL file: what could be compared agrees, not all could.",
@@ -84,19 +93,31 @@ export class Findings {
 
   /** All findings, errors first, each place and code once. */
   all() {
-    const seen = new Set();
-    const once = (finding) => {
+    const all = new Map();
+    for (const finding of [...this.ofTexts, ...this.posted, ...this.checked, ...this.judges.flatMap((judge) => judge.findings())]) {
       const key = `${finding.code} ${finding.file} ${finding.line} ${["verify", "audit", "stock"].includes(finding.source) || !finding.code ? finding.message : ""}`;
-      return !seen.has(key) && seen.add(key);
-    };
-    // Those of the texts come first, as they bring repairs.
-    const all = [...this.ofTexts, ...this.posted, ...this.checked, ...this.judges.flatMap((judge) => judge.findings())].filter(once);
-    return all.sort((a, b) => (ORDER[a.severity] ?? 2) - (ORDER[b.severity] ?? 2));
+      const known = all.get(key) ?? { ...finding, fixes: this.withdrawals(finding) };
+      const isNew = ({ title }) => known.fixes.every((fix) => fix.title !== title);
+      all.set(key, { ...known, fixes: [...known.fixes, ...finding.fixes.filter(isNew)] });
+    }
+    return [...all.values()].sort((a, b) => (ORDER[a.severity] ?? 2) - (ORDER[b.severity] ?? 2));
+  }
+
+  /** What takes back the block of a finding of a check: its statement becomes a comment. */
+  withdrawals({ source, ncLine }) {
+    const origin = ["verify", "audit"].includes(source) && ncLine ? this.posting.origin(ncLine) : null;
+    if (!origin) return [];
+    const [file, line] = origin.fil[0] ?? [this.posting.part, origin.cl];
+    if (!WRITES.test(this.files.text(file)?.split("\n")[line - 1] ?? "")) return [];
+    return [{ title: `make ${file}:${line} a comment`, edits: [{ file, range: [line - 1, 0, line - 1, 0], text: "$$ " }] }];
   }
 
   /** Does a repair. */
-  repair(fix) {
-    applyEdits(this.files, fix.edits);
+  async repair({ edits, set, show }) {
+    if (show) return this.form.showSetting(show);
+    if (edits) return applyEdits(this.files, edits);
+    const why = await this.form.set(...set);
+    if (why) tell("Not repaired", why);
   }
 }
 
@@ -110,7 +131,7 @@ function postedFindings(answer) {
     return {
       source: "post", file: place?.file, line: place?.line, from: place?.from, to: place?.to,
       code: diag.code, severity: diag.severity, message: diag.message, hint: diag.hint,
-      notes: diag.notes, places: diag.places, fixes: [],
+      notes: diag.notes, places: diag.places, fixes: diag.repairs ?? [],
     };
   });
 }

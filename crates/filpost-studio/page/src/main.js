@@ -22,6 +22,7 @@ import { startNaming } from "./panes/naming.js";
 import { startOutline } from "./panes/outline.js";
 import { PathPane } from "./panes/path.js";
 import { Program } from "./panes/program.js";
+import { startSearch } from "./panes/search.js";
 import { startStock } from "./panes/stock.js";
 import { startTree } from "./panes/tree.js";
 import { MACHINE, Posting } from "./posting.js";
@@ -31,21 +32,21 @@ import { chooseFiles, readAll, startPost } from "./start.js";
 
 startTheme();
 
-/** What the playground has beside the page: the module, the examples, the pages of the post words. */
+/** What the playground has beside the page: the examples, and later the modules and the pages of the post words. */
 const parts = globalThis.filpost;
-const backend = parts?.bytes ? moduleBackend(parts) : serverBackend((is) => (by("lost").hidden = !is));
+const backend = parts ? moduleBackend(parts) : serverBackend((is) => (by("lost").hidden = !is));
 const { ask } = backend;
 const files = new Files(backend);
 const posting = new Posting(files, backend);
 const cutting = new Cutting(files, posting, ask);
 const auditing = new Auditing(posting, ask);
-const findings = new Findings(files, posting, [cutting, auditing], ask);
+const form = new Form(files, posting, ask, { open, openForm: () => open(FORM), showLines });
+const findings = new Findings(files, posting, [cutting, auditing], ask, form);
 const debugging = new Debugging(files, posting, ask);
 const editing = new Editing(files, posting, debugging, ask);
-const program = new Program(files, posting, debugging, { open });
+const program = new Program(files, posting, debugging, ask, { open });
 const main = document.querySelector("main");
 const path = new PathPane(files, posting, cutting, ask);
-const form = new Form(files, posting, ask, { open, showLines });
 const cases = new Cases(files, posting, ask);
 posting.recipeOf = (part) => cases.recipe(part);
 const compare = new Compare(files, posting, cases, ask, { openNc });
@@ -260,6 +261,13 @@ startCasebook(cases, files, posting, {
   compare: () => {
     programTabs.choose("tab-compare");
     showView("program");
+  },
+});
+startSearch(files, posting, editing, form, {
+  open, openNc,
+  choose: () => {
+    judgeTabs.choose("tab-search");
+    showView("judge");
   },
 });
 startNaming(files, editing, ask, { open });

@@ -5,7 +5,7 @@ import { isFil } from "./files.js";
 /** Longest CL text that is posted while somebody types, characters. */
 const LARGE = 8_000_000;
 
-/** Pause after a key, milliseconds. */
+/** Pause between a change and a run while changes follow each other, milliseconds. */
 const PAUSE = 50;
 
 /** A run that takes longer is shown as one, milliseconds. */
@@ -19,12 +19,15 @@ export class Posting {
     this.watched = backend.watched;
     /** Name of the CL file. */
     this.part = null;
-    /** What the case of the part says of posting: `fil`, and keys of a request; null where it has no case. */
+    /** What the case of the part says of posting: `fil` and `compat`, and keys of a request; null where it has no case. */
     this.recipe = null;
     /** Finds the recipe of a part. */
     this.recipeOf = async () => null;
     this.answer = null;
+    /** The lines of the program; another list only where they are other ones. */
     this.lines = [];
+    /** Which lines the last answer changed: those of `before`, and behind `line` of them `gone` ones went and `made` came. Null where that is not known. */
+    this.change = null;
     this.origins = originsOf([]);
     this.isRunning = false;
     /** How much of the CL file the run has read, 0 to 1; null where that is not known. */
@@ -38,12 +41,19 @@ export class Posting {
     /** A change waits to be posted. */
     this.isPending = false;
     this.idlers = [];
-    const later = debounced(PAUSE, () => this.run());
+    let last = 0;
+    const later = debounced(PAUSE, () => this.isPending && this.run());
+    // A first change is posted at once, when whoever made it is done.
+    const now = debounced(0, () => this.isPending && this.run());
     files.changed.on((name, by) => {
       if (by === "save" || !this.reads(name)) return;
       if (this.isLarge()) return this.done.tell();
+      const since = performance.now() - last;
+      last += since;
+      const isFirst = since > 2 * PAUSE && !this.isPending && !this.isRunning;
       this.isPending = true;
-      later();
+      if (isFirst) now();
+      else later();
     });
   }
 
@@ -60,7 +70,7 @@ export class Posting {
 
   /** True when the program depends on a file. */
   reads(name) {
-    return name === MACHINE || name === this.part || name.endsWith("case.toml") || (isFil(name) && !name.startsWith("cases/"));
+    return name === MACHINE || name === this.part || name === this.recipe?.compat || name.endsWith("case.toml") || (isFil(name) && !name.startsWith("cases/"));
   }
 
   isLarge() {
@@ -99,7 +109,9 @@ export class Posting {
     const machine = this.machine();
     const cl = this.part && this.files.text(this.part);
     if (!machine || cl === null || cl === undefined) return null;
-    return { do: "post", machine, cl, cl_name: this.part, ...this.scripts(), ...this.recipe?.keys };
+    const { keys, compat: name } = this.recipe ?? {}, text = name ? this.files.text(name) : null;
+    const compat = text === null ? null : { name, text };
+    return { do: "post", machine, cl, cl_name: this.part, ...this.scripts(), ...keys, ...(compat && { compat }) };
   }
 
   async run() {
@@ -138,14 +150,28 @@ export class Posting {
   }
 
   take(answer, time) {
+    this.takeLines(answer);
     this.answer = answer;
     this.time = time;
-    const nc = answer?.nc ?? "";
-    this.lines = nc.replaceAll("\r\n", "\n").split("\n");
     this.origins = originsOf(answer?.origins ?? []);
     this.made = null;
     this.rest();
     this.done.tell();
+  }
+
+  takeLines(answer) {
+    const { nc = "", change } = answer ?? {}, before = this.lines;
+    this.change = null;
+    if (!change || change.of !== this.answer?.nc) {
+      if (nc !== this.answer?.nc) this.lines = linesOf(nc);
+      return;
+    }
+    const gone = Math.min(change.gone, before.length - change.line), made = linesOf(change.text);
+    // Whole lines end where the next one begins.
+    if (change.line + gone < before.length) made.pop();
+    if (!gone && !made.length) return;
+    this.lines = before.slice(0, change.line).concat(made, before.slice(change.line + gone));
+    this.change = { before, line: change.line, gone, made };
   }
 
   /** What made a line of the program: `{cl, record, fil: [[file, line]]}`; null for none. */
@@ -174,13 +200,22 @@ export class Posting {
   }
 }
 
+const linesOf = (text) => text.replaceAll("\r\n", "\n").split("\n");
+
 /** What made each line, as an answer says it: CL lines, records, and the FIL lines of those that have some. */
 function originsOf(said) {
-  const cl = new Uint32Array(said.length), record = new Uint32Array(said.length), fil = new Map();
-  said.forEach((origin, at) => {
-    if (origin) [cl[at], record[at]] = origin;
-    else [cl[at], record[at]] = [(cl[at - 1] ?? 0) + 1, (record[at - 1] ?? 0) + 1];
-    if (origin && origin[2].length) fil.set(at, origin[2]);
-  });
+  const length = said.reduce((sum, origin) => sum + (typeof origin === "number" ? origin : 1), 0);
+  const cl = new Uint32Array(length), record = new Uint32Array(length), fil = new Map();
+  let at = 0;
+  for (const origin of said) {
+    if (typeof origin === "number") {
+      // A row of lines, each of the next record on the next line.
+      for (const end = at + origin; at < end; at++) [cl[at], record[at]] = [(cl[at - 1] ?? 0) + 1, (record[at - 1] ?? 0) + 1];
+      continue;
+    }
+    [cl[at], record[at]] = origin;
+    if (origin[2].length) fil.set(at, origin[2]);
+    at += 1;
+  }
   return { cl, record, fil };
 }

@@ -76,6 +76,13 @@ await page.locator("#view canvas").first().waitFor();
 await page.locator("#nc .cm-line", { hasText: "G3 X50." }).first().click();
 await page.waitForTimeout(1500);
 await take("studio");
+
+// Over the path of its CL file, with the tool on its way.
+await page.locator("#second").selectOption({ label: "plate.ncl" });
+await page.locator(".fv-legend label", { hasText: "plate.ncl" }).waitFor();
+for (let step = 0; step < 12; step++) await page.getByRole("button", { name: "One motion back" }).click();
+await page.waitForTimeout(600);
+await take("studio-path");
 await page.keyboard.press("Control+s");
 await page.waitForFunction(() => !document.querySelector("#tree .dirty"));
 

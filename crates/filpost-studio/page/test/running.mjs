@@ -1,8 +1,27 @@
 // What a person does with a post in the studio: cases, comparing, checking, debugging, cutting; the same over each back end.
 import assert from "node:assert/strict";
+import { lineDifference, whole } from "../src/backends/texts.js";
 import { begin, binaryBox, faults, nc, openFile, said, setting, shows, typeAtTop } from "./steps.mjs";
 
 export const running = {
+  async "a text is said by the lines that differ, and put together again"() {
+    const rows = (count) => Array.from({ length: count }, (_, at) => `N${at} X${at % 7}.\r\n`).join("");
+    const old = rows(2000);
+    for (const other of [
+      old, old.replace("N9 X2.", "N9 X3."), old.replace("N9 X2.\r\n", ""), `%\n${old}`, `${old}M30`, old.slice(0, -9), rows(1000), "", rows(1),
+    ]) {
+      for (const [one, two] of [[old, other], [other, old]]) {
+        const answer = { nc: lineDifference(one, two) };
+        whole(answer, one);
+        assert.equal(answer.nc, two);
+        const { line, gone, text } = answer.change, before = one.split("\n"), made = text.split("\n");
+        const isEnd = line + gone >= before.length;
+        const lines = [...before.slice(0, line), ...(isEnd ? made : made.slice(0, -1)), ...(isEnd ? [] : before.slice(line + gone))];
+        assert.deepEqual(lines, two.split("\n"), JSON.stringify({ line, gone, text: text.slice(0, 60) }));
+      }
+    }
+  },
+
   async "a case is saved, and all cases are run"(studio) {
     const { page, read, picture, close } = await studio();
     await begin(page, "haas-mill");

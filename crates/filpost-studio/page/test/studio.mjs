@@ -37,6 +37,14 @@ export const making = {
     await page.locator("#nc .marked", { hasText: "S2000 M3" }).waitFor();
     await page.locator("#word", { hasText: "number of the record" }).waitFor();
     await picture("cause");
+    // Each word of a block has its own: the feed that of FEDRAT.
+    await page.locator("#nc .cm-line", { hasText: "F300." }).first().click();
+    await page.locator("#words button", { hasText: "F300." }).click();
+    await page.locator("#words [aria-pressed=true]", { hasText: "F300." }).waitFor();
+    await page.locator("#cause button", { hasText: /record \d+, word \d+.*FEDRAT \/ 300/s }).waitFor();
+    await page.locator("#editors .editor:visible .marked", { hasText: "FEDRAT / 300" }).waitFor();
+    await picture("words");
+    assert.deepEqual(await faults(page), [], "the words");
     await close();
   },
 
@@ -54,6 +62,76 @@ export const making = {
     await said(page, "blocks");
     assert.equal(await nc(page), before);
     await page.locator(".cm-content", { hasText: "XX = SQRTF(4)" }).waitFor();
+    await close();
+  },
+
+  async "what the post and the check find is repaired in place"(studio) {
+    const { page, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    const before = await nc(page);
+    const repair = (text) => page.locator("#findings .repair", { hasText: text });
+    await openFile(page, "cases/first/part.ncl");
+    // A misspelt word, and one that the machine does not know.
+    await typeAtTop(page, "COOLNTT / OFF\nSITEWD / 5\n");
+    await said(page, "Refused");
+    await repair("write COOLNT").click();
+    await repair("ignore SITEWD on this machine").click();
+    await said(page, "blocks");
+    await page.locator("#tree .dirty[title='machine.toml']").waitFor();
+    // A block of a script that the CL file does not ask for.
+    await openFile(page, "post.fil");
+    await typeAtTop(page, "CIMFIL/ON,SPINDL\n  POSTN/OUT,G,1,X,99,F,500\n  DMY = POSTF(13)\nCIMFIL/OFF\n");
+    await shows(page, "X99.");
+    await repair("make post.fil:2 a comment").first().waitFor({ timeout: 15_000 });
+    await picture("repairs");
+    await repair("make post.fil:2 a comment").first().click();
+    await page.locator("#editors .editor:visible .cm-line", { hasText: "$$   POSTN/OUT" }).waitFor();
+    await page.locator("#nc .cm-content", { hasText: "X99." }).waitFor({ state: "detached" });
+    // A block that the check can't read: what it does is said in the machine.
+    await openFile(page, "cases/first/part.ncl");
+    await page.locator("#editors .editor:visible .cm-line", { hasText: "SPINDL" }).first().click();
+    await page.keyboard.press("Home");
+    await page.keyboard.insertText("INSERT / G65 P9001\n");
+    await page.locator("#findings li.note", { hasText: "Not compared" }).getByText("Repair: say that G65 P9001 changes nothing").click({ timeout: 15_000 });
+    await openFile(page, "machine.toml");
+    await page.locator("#editors .editor:visible .cm-line", { hasText: '"G65 P9001" = "nothing"' }).waitFor();
+    assert.notEqual(await nc(page), before);
+    assert.deepEqual(await faults(page), [], "the repairs");
+    await close();
+  },
+
+  async "a name is found in all files, the program and the settings"(studio) {
+    const { page, picture, close } = await studio();
+    await begin(page, "haas-mill");
+    await openFile(page, "post.fil");
+    // A macro, from the word at the cursor.
+    await page.locator("#editors .editor:visible .cm-line", { hasText: "CALL/HEADER" }).click();
+    await page.keyboard.press("End");
+    await page.keyboard.press("Control+Shift+F");
+    const places = page.locator("#search-places"), said = page.locator("#search-said");
+    await places.locator("b", { hasText: "macro" }).waitFor();
+    await places.locator("b", { hasText: "call" }).waitFor();
+    assert.equal(await page.locator("#search-text").inputValue(), "HEADER");
+    await places.locator(".finding", { hasText: "MACRO" }).click();
+    await page.locator("#editors .editor:visible .cm-activeLine", { hasText: "MACRO" }).waitFor();
+    // A statement: in the part of a case that was not opened yet. Only whole names count, unless that is switched off.
+    await page.locator("#search-text").fill("spindl");
+    await places.locator("h3", { hasText: "cases/first/part.ncl" }).waitFor();
+    await picture("search");
+    assert.deepEqual(await faults(page), [], "the places");
+    await page.locator("#search-text").fill("spind");
+    await said.filter({ hasText: "Settings" }).or(said.filter({ hasText: "place" })).waitFor();
+    await places.locator("h3", { hasText: "cases/first/part.ncl" }).waitFor({ state: "detached" });
+    await page.locator("#search-whole").uncheck();
+    await places.locator("h3", { hasText: "cases/first/part.ncl" }).waitFor();
+    // A setting: where machine.toml gives it, and in the form.
+    await page.getByRole("tab", { name: "Machine", exact: true }).click();
+    await setting(page, "seqno.increment").fill("5");
+    await setting(page, "seqno.increment").press("Enter");
+    await page.locator("#search-text").fill("seqno.increment");
+    await places.locator("h3", { hasText: "machine.toml" }).waitFor();
+    await places.locator(".finding", { hasText: "seqno.increment" }).last().click();
+    await page.waitForFunction(() => document.activeElement.id === "set-seqno.increment");
     await close();
   },
 
@@ -210,7 +288,7 @@ export const making = {
     // The call that is written tells its form, and the layout is that of the formatter.
     await typeAtTop(page, "IF (1.EQ.1) THEN\nXX = SQRTF(4)\nENDIF\n");
     await page.getByRole("button", { name: "Format" }).click();
-    await script.locator(".cm-line", { hasText: "XX = SQRTF(4)" }).click();
+    await script.locator(".cm-line", { hasText: /^ +XX = SQRTF\(4\)/ }).click();
     await page.keyboard.press("End");
     await page.keyboard.press("ArrowLeft");
     await page.locator("#word .call", { hasText: "SQRTF(" }).waitFor();

@@ -3,7 +3,8 @@
 use fil_ide::{Edit, Finding, Fix, Item, Text, cl_file, machine};
 use serde_json::{Value, json};
 
-use super::{Edited, Language, places};
+use super::{Edited, Language};
+use crate::places;
 
 impl Edited {
     /// Findings as `{line, from, to_line, to, code, severity, message}`; places as editors

@@ -5,7 +5,7 @@ mod assist;
 #[cfg(feature = "navigate")]
 mod navigate;
 
-use fil_ide::{Position, Range, Script};
+use fil_ide::{Position, Script};
 use filpost::{Commons, Included, settings};
 
 use crate::Misuse;
@@ -83,9 +83,4 @@ impl Edited {
         let files = [(self.name.as_str(), self.text.as_str())];
         ask(&Script::new(&files, &self.name, Some(&mut includes), machine.as_ref()))
     }
-}
-
-/// A range as `[line, character, line, character]`, from 0.
-fn places(range: Range) -> [u32; 4] {
-    [range.start.line, range.start.character, range.end.line, range.end.character]
 }

@@ -3,7 +3,8 @@
 use fil_ide::{Edit, Outline, OutlineKind, Place, Script, Text, cl_file, machine};
 use serde_json::{Value, json};
 
-use super::{Edited, Language, places};
+use super::{Edited, Language};
+use crate::places;
 
 impl Edited {
     /// Tools and operations of a CL file, sections and macros of FIL, tables of a machine: `{name, line, children}`

@@ -1,22 +1,29 @@
 // The module in the browser: files in memory, answers by WebAssembly in a worker.
 import workerText from "worker:./worker.js";
+import { LONG, whole } from "./texts.js";
 
 /** Longest time a request may take, in milliseconds. */
 const PATIENCE = 20_000;
 
 /** What the second module answers; the first has all else. */
 const JUDGED = new Set([
-  "plot", "columns", "verify", "audit", "compare", "motions", "simulate", "debug", "cover",
+  "plot", "columns", "verify", "behind", "audit", "compare", "motions", "simulate", "debug", "cover",
   "outline", "definition", "references", "rename", "signature", "format", "beside",
 ]);
 
+/** What shows pages of post words, which the module gets then. */
+const WORDED = new Set(["hover", "complete", "signature"]);
+
 /** One module in a worker: requests, and a new worker where one takes too long. */
 class Asked {
-  constructor(wasm, words) {
+  constructor(wasm) {
     this.wasm = wasm;
-    this.words = words;
+    /** The request that gives the pages of the post words. */
+    this.words = null;
     this.waiting = new Map();
     this.number = 0;
+    /** The last long program: the worker has it too. */
+    this.program = null;
     /** What was asked last so that it can be stopped. */
     this.last = Promise.resolve();
     this.start();
@@ -27,7 +34,14 @@ class Asked {
     const address = URL.createObjectURL(new Blob([workerText], { type: "text/javascript" }));
     this.worker = new Worker(address);
     this.worker.onmessage = ({ data }) => this.settle(data);
-    this.worker.postMessage({ wasm: this.wasm, words: this.words });
+    this.worker.postMessage({ wasm: this.wasm });
+    if (this.words) this.worker.postMessage({ number: 0, request: this.words });
+  }
+
+  /** Gives the pages of the post words, before what shows them. */
+  give(pages) {
+    this.words = { do: "words", pages };
+    return this.ask(this.words);
   }
 
   settle({ number, text, failure, share }) {
@@ -37,7 +51,16 @@ class Asked {
     this.waiting.delete(number);
     clearTimeout(waiting.timer);
     if (failure) waiting.reject(new Error(failure));
-    else waiting.resolve(JSON.parse(text));
+    else waiting.resolve(this.unpack(JSON.parse(text), text.length, waiting.request));
+  }
+
+  /** An answer with its program, of which the worker says only what is different in it. */
+  unpack(answer, length, request) {
+    if (request.do !== "post" || !answer.nc) return answer;
+    if (typeof answer.nc === "object") whole(answer, this.program);
+    else if (length < LONG) return answer;
+    this.program = answer.nc;
+    return answer;
   }
 
   /** Asks; a patient request waits until it is answered, or somebody stops it. `told` hears how much of it is done, 0 to 1. */
@@ -107,19 +130,43 @@ function loadScript(name) {
   });
 }
 
+/** A module, compiled while it comes. From a disk it comes as a script, which has it as a text. */
+async function compile(name, parts) {
+  let address = name;
+  if (location.protocol === "file:") {
+    await loadScript(`${name}.js`);
+    address = `data:application/wasm;base64,${parts[name]}`;
+    delete parts[name];
+  }
+  const answer = await fetch(address);
+  if (!answer.ok) throw new Error(`${name} can't be loaded`);
+  // A server that does not know the kind of the file has to be read to its end first.
+  const isKnown = answer.headers.get("Content-Type") === "application/wasm";
+  return isKnown ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
+}
+
+/** What is made when it is asked for first, and again where that failed. */
+function once(make) {
+  let made = null;
+  return () => (made ??= make().catch((error) => {
+    made = null;
+    throw error;
+  }));
+}
+
 /** The back end of the page without a server; `parts` are the scripts beside it. */
 export function moduleBackend(parts) {
-  const first = new Asked(parts.bytes(), parts.words);
-  let second = null;
-  const judge = () => {
-    second ??= loadScript("filpost-plot.wasm.js").then(() => new Asked(parts.plotBytes())).catch((error) => {
-      second = null;
-      throw error;
-    });
-    return second;
-  };
+  const asked = (name) => once(async () => new Asked(await compile(name, parts)));
+  const post = asked("filpost.wasm"), judge = asked("filpost-plot.wasm");
+  const tell = once(async () => {
+    await loadScript("words.js");
+    await (await post()).give(parts.words);
+  });
+  // It is needed at once.
+  post().catch(() => null);
   const ask = async (request) => {
-    return JUDGED.has(request.do) ? (await judge()).ask(request) : first.ask(request);
+    if (WORDED.has(request.do)) await tell();
+    return (await (JUDGED.has(request.do) ? judge : post)()).ask(request);
   };
   const kept = new Map();
   let stamps = 0;
@@ -127,7 +174,19 @@ export function moduleBackend(parts) {
     keeps: false,
     ask,
     /** The module is stopped with its worker, and so only where somebody asks for that. */
-    watched: (request, told, isPatient) => first.askStoppable(request, told, isPatient),
+    watched: (request, told, isPatient) => {
+      let isOver = false, work = null;
+      const answer = post().then((first) => {
+        if (isOver) throw new Error("it was stopped");
+        work = first.askStoppable(request, told, isPatient);
+        return work.answer;
+      });
+      const end = (how) => () => {
+        isOver = true;
+        work?.[how]();
+      };
+      return { answer, supersede: end("supersede"), stop: end("stop") };
+    },
     list: async () => ({
       folder: "playground", all: true,
       files: [...kept].map(([name, { text, stamp }]) => ({ name, size: text.length, stamp })),

@@ -6,7 +6,7 @@ const sent = new SentTexts();
 /** Asks the server, with long texts by their names where it has them. */
 async function ask(request) {
   const answer = await askAsItIs(sent.pack(request));
-  if (!answer?.unkept) return answer;
+  if (!answer?.unkept && sent.unpack(answer)) return answer;
   sent.forget();
   return askAsItIs(request);
 }

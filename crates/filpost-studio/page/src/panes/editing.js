@@ -23,7 +23,7 @@ export class Editing {
     const lookBeside = debounced(300, () => this.showBeside());
     this.chosen.on(lookBeside);
     files.changed.on((name) => (isFil(name) || name === MACHINE) && lookBeside());
-    this.tellWord = debounced(120, (name, at) => this.showWord(name, at));
+    this.tellWord = debounced(120, (name) => this.showWord(name));
     by("open-tabs").addEventListener("keydown", (event) => this.key(event));
     files.changed.on((name, who) => this.follow(name, who));
     debugging.moved.on((name) => this.showStops(name));
@@ -84,7 +84,7 @@ export class Editing {
         goTo(view, line, units);
         view.focus();
       }
-      this.tellWord(name, view.state.selection.main.head);
+      this.tellWord(name);
     }
     this.chosen.tell(name);
   }
@@ -98,11 +98,11 @@ export class Editing {
       name, text, kind, ask: this.ask, file: asked,
       changed: (edited) => {
         this.files.set(name, edited, view);
-        this.tellWord(name, view.state.selection.main.head);
+        this.tellWord(name);
       },
-      pointed: (line, at) => {
+      pointed: (line) => {
         this.pointed.tell(name, line);
-        this.tellWord(name, at);
+        this.tellWord(name);
       },
       stopped: (isCl(name) || isFil(name)) && ((lines) => this.debugging.setLines(name, lines)),
     });
@@ -131,6 +131,13 @@ export class Editing {
     return word && state.sliceDoc(word.from, word.to);
   }
 
+  /** What is selected in the file that is shown, else the word at the cursor; null for none. */
+  selected() {
+    const { state } = this.open.get(this.current)?.view ?? {};
+    const { from, to } = state?.selection.main ?? {};
+    return from === to ? state && this.word() : state.doc.lineAt(from).to >= to ? state.sliceDoc(from, to) : null;
+  }
+
   /** A text as requests of the language tools name it. */
   asked(language, name, text) {
     if (language !== "fil") return { language, name, text };
@@ -154,7 +161,10 @@ export class Editing {
   follow(name, who) {
     const file = this.open.get(name);
     if (!file?.view) return;
-    if (who !== file.view && who !== "save") setText(file.view, this.files.text(name));
+    if (who !== file.view && who !== "save") {
+      setText(file.view, this.files.text(name));
+      if (name === this.current) this.tellWord(name);
+    }
     this.label(name);
   }
 
@@ -198,7 +208,7 @@ export class Editing {
   }
 
   /** Tells what stands at the cursor: the record with its word numbers, or the FIL word. */
-  async showWord(name, at) {
+  async showWord(name) {
     const { view } = this.open.get(name) ?? {};
     const language = LANGUAGES[kindOf(name)];
     const box = by("word"), number = ++this.told;
@@ -209,7 +219,7 @@ export class Editing {
     }
     await this.posting.idle();
     if (number !== this.told) return;
-    const { doc } = view.state, place = position(doc, Math.min(at, doc.length));
+    const { doc, selection } = view.state, place = position(doc, selection.main.head);
     const text = isCl(name) ? doc.sliceString(0, statementEnd(doc, place.line + 1)) : doc.toString();
     const request = { do: "hover", ...this.asked(language, name, text), ...place };
     const answer = await this.ask(request).catch(() => null);

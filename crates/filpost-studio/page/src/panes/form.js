@@ -17,8 +17,8 @@ const VIEWS = [
 const MOST_TRIED = 4;
 
 export class Form {
-  constructor(files, posting, ask, { open, showLines }) {
-    this.showLines = showLines;
+  constructor(files, posting, ask, { open, openForm, showLines }) {
+    Object.assign(this, { openForm, showLines });
     this.files = files;
     this.posting = posting;
     this.ask = ask;
@@ -105,6 +105,15 @@ export class Form {
     }));
     if (!this.list.childElementCount) this.list.append(el("p", { class: "quiet" }, "No setting is like that."));
     keepsFocus();
+  }
+
+  /** Shows a setting in the form, whatever the list shows now. */
+  async showSetting(key) {
+    await this.openForm();
+    this.find.value = key;
+    this.view.value = "all";
+    this.show();
+    by(`set-${key}`)?.focus();
   }
 
   /** True for a text that has all words that are looked for. */
@@ -262,13 +271,14 @@ export class Form {
     });
   }
 
-  /** Changes machine.toml. */
+  /** Changes machine.toml; says why not, or nothing. */
   async set(key, value) {
     const text = this.files.text(MACHINE);
     const answer = await this.ask({ do: "set", text, key, value: value ?? undefined });
     this.refused = answer.text === undefined ? `${key} is not set: ${answer.why ?? answer.misuse}` : "";
     this.say(this.refused);
     if (!this.refused) this.files.set(MACHINE, answer.text);
+    return this.refused;
   }
 }
 

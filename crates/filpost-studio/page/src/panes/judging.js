@@ -19,9 +19,11 @@ export function startJudging(findings, { open, openNc }) {
       where ? el("span", { class: "where" }, where) : null,
       el("span", {}, finding.message),
     ];
-    const fixes = finding.fixes.map((fix) => {
-      return el("button", { type: "button", class: "repair", onclick: () => findings.repair(fix) }, `Repair: ${fix.title}`);
-    });
+    // A setting that is only shown, and a doubt that is set aside, repair nothing.
+    const isQuiet = ({ title, show }) => show || title.startsWith("allow ");
+    const fixes = finding.fixes.map((fix) => el("button", {
+      type: "button", class: isQuiet(fix) ? "other" : "repair", onclick: () => findings.repair(fix),
+    }, isQuiet(fix) ? `${fix.title[0].toUpperCase()}${fix.title.slice(1)}` : `Repair: ${fix.title}`));
     const others = (finding.places ?? []).slice(1).map((other) => {
       return el("button", { type: "button", class: "other", onclick: () => open(other.file, other.line, other.from) },
         `${other.file}:${other.line}${other.label ? ` ${other.label}` : ""}`);
@@ -41,7 +43,8 @@ export function startJudging(findings, { open, openNc }) {
     const all = findings.all();
     list.replaceChildren(...all.map(item));
     if (!all.length && !findings.verdict) list.append(el("li", { class: "quiet" }, "Nothing was found."));
-    tab.replaceChildren("Findings ", el("span", { class: "count" }, all.length ? String(all.length) : ""));
+    const count = all.filter(({ severity }) => severity !== "note").length;
+    tab.replaceChildren("Findings ", el("span", { class: "count" }, count ? String(count) : ""));
     by("checked").textContent = findings.verdict;
     tab.classList.toggle("bad", all.some(({ severity }) => severity === "error"));
   }

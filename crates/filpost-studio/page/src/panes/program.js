@@ -1,17 +1,21 @@
 // The NC program, and what made the block that is pointed at.
-import { by, counted, el, signal } from "../dom.js";
+import { by, counted, debounced, el, signal } from "../dom.js";
 import { NC } from "../debugging.js";
-import { goTo, markLines, reader, setText, showFresh, showStanding, showStops } from "../editors.js";
+import { goTo, markLines, reader, setLines, setText, showFresh, showStanding, showStops } from "../editors.js";
 
 export class Program {
-  constructor(files, posting, debugging, { open }) {
-    Object.assign(this, { files, posting, open });
+  constructor(files, posting, debugging, ask, { open }) {
+    Object.assign(this, { files, posting, ask, open });
+    /** The words of the block that is pointed at, with what is behind each; and the letter of the block that is. */
+    this.words = [];
+    this.letter = 0;
+    this.lookBehind = debounced(100, () => this.readWords());
     /** The cursor is in a line of the program. */
     this.pointed = signal();
     this.view = reader(by("nc"), {
       label: "NC program", kind: "nc",
       origin: (line) => this.told(line),
-      pointed: (line) => this.point(line),
+      pointed: (line, at) => this.point(line, at - this.view.state.doc.line(line).from),
       stopped: (lines) => debugging.setLines(NC, lines),
     });
     debugging.moved.on((file) => file === NC && showStops(this.view, debugging.linesOf(NC)));
@@ -19,16 +23,20 @@ export class Program {
   }
 
   show() {
-    const { answer, part, lines } = this.posting;
-    const text = lines.join("\n");
-    if (answer?.nc && this.last?.part === part && this.view.state.doc.toString() === text) {
+    const { answer, part, lines, change } = this.posting;
+    if (answer?.nc && this.last?.part === part && this.shown === lines) {
       // The same program again: the block that is pointed at stays, what made it may stand elsewhere.
-      if (this.line) this.showCause(this.line);
+      this.words = [];
+      if (this.line) this.point(this.line, this.letter);
       return;
     }
     this.line = null;
+    this.words = [];
+    by("words").replaceChildren();
     markLines(this.view, [], false);
-    setText(this.view, text);
+    if (change && change.before === this.shown) setLines(this.view, change);
+    else setText(this.view, lines.join("\n"));
+    this.shown = lines;
     if (!answer?.nc) {
       showFresh(this.view, []);
       by("cause").replaceChildren();
@@ -61,26 +69,51 @@ export class Program {
     return this.places(line).map((place) => this.text(place)).join("\n");
   }
 
-  point(line) {
-    this.line = line;
+  point(line, letter) {
+    if (line !== this.line) this.words = [];
+    Object.assign(this, { line, letter });
     markLines(this.view, [], false);
-    this.showCause(line);
-    this.pointed.tell(line, this.places(line));
+    this.showCause();
+    this.lookBehind();
   }
 
-  showCause(line) {
-    const places = this.places(line);
-    const record = this.posting.origin(line)?.record;
-    by("cause").replaceChildren(...places.map(([name, at], index) => {
-      const text = (this.files.text(name)?.split("\n")[at - 1] ?? "").trim();
-      return el(
-        "button",
-        { type: "button", onclick: () => this.open(name, at) },
-        el("b", {}, `${name}:${at}`),
-        index === 0 && record ? el("span", { class: "quiet" }, ` record ${record}`) : "",
-        el("code", {}, text),
-      );
-    }));
+  /** Asks what is behind each word of the block that is pointed at. */
+  async readWords() {
+    const { line, posting } = this, request = posting.request();
+    if (this.words.length || !line || !request || posting.isLarge() || !posting.answer?.nc) return;
+    const { answer } = posting, said = await this.ask({ ...request, do: "behind", nc_line: line }).catch(() => null);
+    if (this.line !== line || posting.answer !== answer) return;
+    this.words = said?.words ?? [];
+    this.showCause();
+  }
+
+  /** Shows what made the block that is pointed at, and the word of it. */
+  showCause() {
+    const { line, words } = this, { part } = this.posting;
+    // The number of a block is due to nothing of its own: with it the block is meant.
+    const here = words.find(({ from, to, text }) => this.letter >= from && this.letter < to && !/^N?\d+$/.test(text));
+    by("words").replaceChildren(...words.map((word) => el("button", {
+      type: "button", "aria-pressed": String(word === here), onclick: () => this.point(line, word.from),
+    }, word.text || "-")));
+    const byMachine = here && !here.record && !here.fil.length;
+    const places = here ? [...(here.line ? [[part, here.line]] : []), ...here.fil] : this.places(line);
+    const record = here?.record ?? this.posting.origin(line)?.record;
+    // A word of a record counts as POSTF(7,n) does.
+    const of = record ? ` record ${record}${here?.word && !here.by_fil ? `, word ${here.word}` : ""}` : "";
+    by("cause").replaceChildren(
+      ...(byMachine ? [el("p", { class: "quiet" }, `${here.text} comes from the settings of the machine.`)] : []),
+      ...places.map(([name, at], index) => {
+        const text = (this.files.text(name)?.split("\n")[at - 1] ?? "").trim();
+        return el(
+          "button",
+          { type: "button", onclick: () => this.open(name, at) },
+          el("b", {}, `${name}:${at}`),
+          index === 0 && of ? el("span", { class: "quiet" }, of) : "",
+          el("code", {}, text),
+        );
+      }),
+    );
+    this.pointed.tell(line, places);
   }
 
   /** Shows a line of the program. */
