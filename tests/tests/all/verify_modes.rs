@@ -123,8 +123,8 @@ fn no_false_alarm_of_texts_and_offsets() {
     assert_eq!(check(Vec::new()), Verdict::Differs);
     assert_eq!(check(vec![54]), Verdict::Differs);
     assert_eq!(check(vec![54, 55]), Verdict::Agrees);
-    let named = ["G55", "g54.1p3", "E4", "G54.1", "55", ""].map(fil_nc::motion::work_offset);
-    assert_eq!(named, [Some(55), Some(541_003), Some(1_000_004), None, None, None]);
+    let named = ["G55", "g54.1p3", "E4", "G59.1", "55", ""].map(fil_nc::motion::work_offset);
+    assert_eq!(named, [Some(55), Some(541_003), Some(1_000_004), Some(591_000), None, None]);
 }
 
 /// A CL file without its INSERT.
