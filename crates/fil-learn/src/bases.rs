@@ -93,10 +93,13 @@ impl Base {
     }
 }
 
+/// The name of a ready post, with the options that it is given.
+type WithOptions = (String, Vec<(String, String)>);
+
 /// Ready posts with values of options, each built once.
 pub(crate) struct Built<'t> {
     fil: &'t [(String, String)],
-    bases: Mutex<BTreeMap<(String, Vec<(String, String)>), Option<Arc<Base>>>>,
+    bases: Mutex<BTreeMap<WithOptions, Option<Arc<Base>>>>,
 }
 
 impl<'t> Built<'t> {

@@ -44,7 +44,8 @@ impl<C: Steps> Verifier<'_, C> {
         let what = &step.what;
         match what {
             ExpectedStep::Sign(sign) => {
-                if self.places.operations.sign(*sign) {
+                let begins = self.places.operations.sign(*sign);
+                if begins {
                     self.end_texts_of_cycle(step.line);
                     self.ask_texts(step.line, user_blocks::OPERATION.after);
                 }
