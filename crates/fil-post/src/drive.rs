@@ -9,13 +9,12 @@ use crate::control::{Control, Held};
 use crate::dispatch::{self, Handler};
 use crate::errors::PostCode;
 use crate::items::Items;
-use crate::lane::Lane;
 use crate::no_effect;
 use crate::operation::End;
-use crate::operation::{POINT, Target};
+use crate::operation::{MOTION, POINT, Target};
 use crate::path::places::{self, Places};
 use crate::path::{Path, Statement, index, long_arc, tool_change, way_home};
-use crate::post::Post;
+use crate::post::{Lane, Post};
 use crate::site_word;
 use crate::words as word;
 use crate::words::end;
@@ -25,9 +24,6 @@ use fil_cl::{Record, Word, WordId, operation_sign};
 use fil_diag::{Diag, Result};
 use fil_machine::Commons;
 use nalgebra::{Point3, Vector3};
-
-/// Number of data words of a motion to a point, and of one with a tool axis.
-pub(crate) const MOTION: [usize; 2] = [5, 8];
 
 impl Post {
     /// A post for a machine.

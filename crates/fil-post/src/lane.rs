@@ -20,11 +20,10 @@ use crate::control::word_address::motion::axis_words;
 use crate::control::{Control, length_plane};
 use crate::control_state::Compensation;
 use crate::control_state::modal::{self, Group, GroupSet};
-use crate::drive::MOTION;
 use crate::operation::motion::Motion;
-use crate::operation::{Feed, POINT, Target};
+use crate::operation::{Feed, MOTION, POINT, Target};
 use crate::path::Path;
-use crate::post::Post;
+use crate::post::{Lane, Post};
 
 /// Groups beside whose usual values a motion at feed has nothing to say, to refuse or to warn of.
 const USUAL: GroupSet = GroupSet::of(&[
@@ -40,20 +39,6 @@ const USUAL: GroupSet = GroupSet::of(&[
     Group::Tool,
     Group::ProgramEnd,
 ]);
-
-/// Whether the next point may go the straight lane.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Lane {
-    /// None may: others than the post may change its state between two records.
-    #[default]
-    Barred,
-    /// It may not.
-    Closed,
-    /// A motion at feed came last: whether it may is to be looked at.
-    Unseen,
-    /// It may.
-    Open,
-}
 
 impl Post {
     /// Runs of points may go the straight lane: from now on nobody changes the state of the post

@@ -21,6 +21,9 @@ use crate::control_state::{Compensation, ForeignBlock};
 /// The word of a motion record that holds its x.
 pub const POINT: u16 = 6;
 
+/// Number of data words of a motion to a point, and of one with a tool axis.
+pub(crate) const MOTION: [usize; 2] = [5, 8];
+
 /// A CL point with its tool axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {

@@ -9,7 +9,6 @@ use crate::control::Control;
 use crate::control::needs::{Act, Part};
 use crate::errors::PostCode;
 use crate::items::Items;
-use crate::lane::Lane;
 use crate::noted::Noted;
 use crate::operation::Feed;
 use crate::path::{Choice, Path};
@@ -21,6 +20,20 @@ pub struct WaitsForMotion {
     rapids: u32,
     /// A CIRCLE waits for its end.
     arc: bool,
+}
+
+/// Whether the next point may go the straight lane.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Lane {
+    /// None may: others than the post may change its state between two records.
+    #[default]
+    Barred,
+    /// It may not.
+    Closed,
+    /// A motion at feed came last: whether it may is to be looked at.
+    Unseen,
+    /// It may.
+    Open,
 }
 
 /// The generalized post of one run.
