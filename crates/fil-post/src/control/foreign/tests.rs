@@ -143,7 +143,7 @@ proptest! {
 
     #[test]
     fn words_that_the_post_writes_are_read_back(words in words()) {
-        let mut control = control("masso-mill");
+        let mut control = control("brother-mill");
         let caused: Vec<_> =
             words.iter().map(|(letter, value)| (*letter, *value, Cause::default())).collect();
         let start = control.tape.text.len();
