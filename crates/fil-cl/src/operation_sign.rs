@@ -27,8 +27,7 @@ pub fn of(record: &Record) -> Option<Sign> {
         words::FEATNO | words::TOOL_PATH => Some(Sign::Named),
         words::PPRINT if record.text.trim().starts_with(NAME_OF_OPERATION) => Some(Sign::Named),
         words::PPRINT => Some(Sign::Message),
-        words::LOADTL | words::LOAD | words::TURRET => Some(Sign::ToolChange),
-        _ => None,
+        _ => record.takes_tool().then_some(Sign::ToolChange),
     }
 }
 

@@ -245,6 +245,19 @@ impl Record {
         self.data_word(self.find_minor(FIRST_DATA, id)? + 1)
     }
 
+    /// The first number of the record, in the unit that the statement gives it: that of the tool in LOADTL.
+    pub fn first_number(&self) -> Option<f64> {
+        self.data.iter().find_map(|word| match word {
+            Word::Number(number) => Some(*number),
+            _ => None,
+        })
+    }
+
+    /// True for a record that takes a tool: LOADTL, LOAD, TURRET.
+    pub fn takes_tool(&self) -> bool {
+        matches!(self.major, words::LOADTL | words::LOAD | words::TURRET)
+    }
+
     /// The number after the first `id`, in the unit that the statement gives it.
     pub fn number_after(&self, id: WordId) -> Option<f64> {
         match self.after(id)? {

@@ -8,7 +8,7 @@ use fil_machine::locations::{self as loc, ReposOptimiseSpan};
 use fil_machine::setting::CodeAt;
 use fil_post::path::Coming;
 
-use crate::source::{Source, changes_tool};
+use crate::source::Source;
 
 /// Most records that are looked through.
 const MOST: usize = 2000;
@@ -95,7 +95,7 @@ impl Source<'_> {
                 kind::FINI => break,
                 _ if moves_frame(record, vocabulary) => break,
                 _ if stop.is_some() => {}
-                _ if record.major == words::RAPID || changes_tool(record) => break,
+                _ if record.major == words::RAPID || record.takes_tool() => break,
                 _ => {}
             }
         }

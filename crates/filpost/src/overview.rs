@@ -121,10 +121,7 @@ impl Overview {
             words::FEATNO => {
                 self.sign(Sign::Named);
                 self.pending.name = None;
-                self.pending.feature = record.data.iter().find_map(|word| match word {
-                    fil_cl::Word::Number(number) => Some(*number),
-                    _ => None,
-                });
+                self.pending.feature = record.first_number();
             }
             words::TOOL_PATH => self.tool_path(record.text.trim()),
             words::TPRINT => self.pending.tool_name = named(&record.text),
@@ -162,7 +159,7 @@ impl Overview {
     pub fn count(&mut self, record: &Record, cl_record: u32, counted: &Counted) {
         self.unit = counted.unit;
         let seconds = counted.other_seconds;
-        if matches!(record.major, words::LOADTL | words::LOAD | words::TURRET) {
+        if record.takes_tool() {
             self.change_tool(record, cl_record);
         }
         let is_thread = matches!(record.major, words::THREAD | words::OP);
@@ -187,20 +184,18 @@ impl Overview {
 
     fn change_tool(&mut self, record: &Record, cl_record: u32) {
         self.sign(Sign::ToolChange);
-        let Some(fil_cl::Word::Number(number)) =
-            record.data.iter().find(|word| matches!(word, fil_cl::Word::Number(_)))
-        else {
+        let Some(number) = record.first_number() else {
             self.tool = None;
             return;
         };
         if self.changes.len() < MOST {
-            self.changes.push((cl_record, *number));
+            self.changes.push((cl_record, number));
         } else {
             self.too_many = true;
         }
-        let known = self.tools.iter().position(|entry| entry.number == *number);
+        let known = self.tools.iter().position(|entry| entry.number == number);
         let index = known.unwrap_or_else(|| {
-            self.tools.push(ToolEntry { number: *number, ..ToolEntry::default() });
+            self.tools.push(ToolEntry { number: number, ..ToolEntry::default() });
             self.tools.len() - 1
         });
         let entry = &mut self.tools[index];

@@ -254,7 +254,7 @@ impl<'r> Source<'r> {
         }
         for index in 0..LOOK_AHEAD {
             let Some(record) = self.ahead(index, vocabulary)? else { break };
-            if matches!(record.kind, kind::MOTION | kind::FINI) || changes_tool(record) {
+            if matches!(record.kind, kind::MOTION | kind::FINI) || record.takes_tool() {
                 break;
             }
             found = record.tool_diameter().or(found);
@@ -411,7 +411,7 @@ impl ToolsSeen {
             return Some(self.at_the_end());
         }
         self.speed = self.speed.take(record);
-        if !changes_tool(record) {
+        if !record.takes_tool() {
             return None;
         }
         self.any = true;
@@ -456,7 +456,7 @@ impl Tool {
 
     /// A diameter before a tool change is that of the new tool, unless a motion came between.
     fn take(&mut self, record: &Record) {
-        if changes_tool(record) {
+        if record.takes_tool() {
             if self.has_moved {
                 (self.diameter, self.corner) = (None, None);
             }
@@ -505,9 +505,4 @@ impl Tools {
             None => Tool::default(),
         }
     }
-}
-
-/// True for a record that takes a tool.
-pub(crate) fn changes_tool(record: &Record) -> bool {
-    matches!(record.major, words::LOADTL | words::LOAD | words::TURRET)
 }

@@ -6,7 +6,7 @@
 
 mod hole;
 
-use fil_cl::{Record, Word, record::kind, words};
+use fil_cl::{Record, record::kind, words};
 use fil_machine::commons::EMPTY;
 use fil_machine::locations::{self, RapidSplit};
 use fil_machine::modes::{FeedMode, INCH, Unit};
@@ -202,10 +202,10 @@ impl Tally {
     ) -> Option<Motion> {
         let commons = &post.control.commons;
         match record.major {
-            words::LOADTL | words::LOAD | words::TURRET => {
+            _ if record.takes_tool() => {
                 let time = setting(commons, CHANGE_TIME).unwrap_or(0.0);
                 self.total.other_seconds += time;
-                let mut tool = ToolTotals { tool: first_number(record), ..ToolTotals::default() };
+                let mut tool = ToolTotals { tool: record.first_number(), ..ToolTotals::default() };
                 tool.totals.other_seconds = time;
                 self.tools.push(tool);
             }
@@ -322,7 +322,7 @@ fn turns_of(post: &Post) -> Option<f64> {
 
 /// Seconds of a DELAY; `None` for turns of a spindle whose speed is not known.
 fn delay(record: &Record, post: &Post) -> Option<f64> {
-    let value = first_number(record).unwrap_or(0.0);
+    let value = record.first_number().unwrap_or(0.0);
     if !record.has(words::REV) {
         return Some(value);
     }
@@ -366,11 +366,4 @@ fn turning_seconds(before: &Before, post: &Post) -> f64 {
 
 fn setting(commons: &Commons, location: u32) -> Option<f64> {
     commons.get(Kind::Dbl, location).ok().filter(|value| *value != EMPTY)
-}
-
-fn first_number(record: &Record) -> Option<f64> {
-    record.data.iter().find_map(|word| match word {
-        Word::Number(number) => Some(*number),
-        _ => None,
-    })
 }

@@ -202,12 +202,7 @@ fn reader<'r>(cl: impl Read + Send + 'r, name: &str, options: Options) -> Reader
 
 /// The number of the tool that a record changes to.
 fn changed_tool(record: &Record) -> Option<f64> {
-    let changes = matches!(record.major, w::LOADTL | w::LOAD | w::TURRET) && !record.inert;
-    let number = |word: &fil_cl::Word| match word {
-        fil_cl::Word::Number(number) => Some(*number),
-        _ => None,
-    };
-    record.data.iter().find_map(number).filter(|_| changes)
+    record.first_number().filter(|_| record.takes_tool() && !record.inert)
 }
 
 /// A record stays in the programs of other tools; `of` is 0 before the first change.

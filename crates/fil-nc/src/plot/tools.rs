@@ -1,7 +1,7 @@
 //! The shape of tools, as CL files give it.
 
 use fil_cl::words as w;
-use fil_cl::{Reader, Record, Vocabulary, Word};
+use fil_cl::{Reader, Record, Vocabulary};
 use fil_diag::Diag;
 use fil_machine::Unit;
 
@@ -84,10 +84,7 @@ impl Tools {
     }
 
     fn change(&mut self, record: &Record) {
-        let number = record.data.iter().find_map(|word| match word {
-            Word::Number(number) => Some(*number),
-            _ => None,
-        });
+        let number = record.first_number();
         let whole = number.filter(|number| (0.0..=u32::MAX.into()).contains(number));
         self.number = whole.map(|number| number as u32);
         if let (Some(number), Some(shape)) = (self.number, self.fresh.take()) {

@@ -31,7 +31,7 @@ use crate::program::Program;
 use crate::report::Report;
 use crate::run::Start;
 use crate::select;
-use crate::source::{Source, Stream, changes_tool};
+use crate::source::{Source, Stream};
 use crate::spilled::Spilled;
 use crate::tally::Tally;
 use crate::units;
@@ -236,7 +236,7 @@ impl<'o, 'r> Outside<'o, 'r> {
         if self.post.looks_ahead_for_axes() {
             self.follow_stretch(record, vocabulary);
         }
-        if changes_tool(record) {
+        if record.takes_tool() {
             return self.look_for_tools(record, vocabulary);
         }
         if record.major == words::RAPID {

@@ -89,10 +89,7 @@ impl Reading {
 
     /// A description before a tool change is that of the new tool, unless a motion came between.
     fn change(&mut self, record: &Record) {
-        let number = record.data.iter().find_map(|word| match word {
-            Word::Number(number) => Some(*number),
-            _ => None,
-        });
+        let number = record.first_number();
         self.number = number.filter(|number| *number >= 0.0).map(|number| number as u32);
         if self.has_moved {
             self.described = None;
