@@ -31,9 +31,9 @@ impl Post {
     /// # Errors
     /// Settings that make no machine.
     pub fn new(commons: Commons) -> Result<Self> {
-        let mut path = Path::default();
-        path.texts = Places::of(&commons);
-        Ok(Post { control: Control::new(commons)?, path, lane: Lane::default() })
+        let places = Places::of(&commons);
+        let control = Control::new(commons)?;
+        Ok(Post { control, path: Path::default(), lane: Lane::default(), places })
     }
 
     /// Carries out one record.
@@ -108,7 +108,7 @@ impl Post {
 /// the post knows nor a table lists as without effect.
 #[inline]
 fn carry_out(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<()> {
-    if post.path.texts.are_on
+    if post.places.are_on
         && let Some(sign) = operation_sign::of(record)
     {
         places::note_sign(post, sign)?;

@@ -11,6 +11,7 @@ use crate::errors::PostCode;
 use crate::items::Items;
 use crate::noted::Noted;
 use crate::operation::Feed;
+use crate::path::places::Places;
 use crate::path::{Choice, Path};
 
 /// What waits for the next motion of the CL file.
@@ -48,6 +49,8 @@ pub struct Post {
     pub path: Path,
     /// Whether points may go the straight lane.
     pub(crate) lane: Lane,
+    /// What has begun that the user's blocks stand around.
+    pub(crate) places: Places,
 }
 
 impl Post {

@@ -2,7 +2,8 @@
 
 use fil_machine::locations::ControlFamily;
 
-use super::family::{Capabilities, Row};
+use super::capabilities::Capabilities;
+use super::family::Row;
 use super::{klartext, sinumerik, word_address};
 
 /// The row of a family.

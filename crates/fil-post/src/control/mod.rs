@@ -7,6 +7,7 @@
 
 mod again;
 mod apart;
+pub mod capabilities;
 mod characters;
 mod departure;
 mod edit;

@@ -18,7 +18,7 @@ use fil_diag::Result;
 /// # Errors
 /// Whatever the machine or the control can't do.
 pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
-    if post.path.texts.are_on {
+    if post.places.are_on {
         places::before(post, &operation)?;
     }
     match operation {

@@ -37,7 +37,7 @@ impl Places {
 /// As the user's blocks.
 #[cold]
 pub(crate) fn note_sign(post: &mut Post, sign: Sign) -> Result<()> {
-    if post.path.texts.operations.sign(sign) {
+    if post.places.operations.sign(sign) {
         end_cycle(post)?;
         write(post, user_blocks::OPERATION.after)?;
     }
@@ -50,7 +50,7 @@ pub(crate) fn note_sign(post: &mut Post, sign: Sign) -> Result<()> {
 /// As the user's blocks.
 pub(super) fn end_cycle(post: &mut Post) -> Result<()> {
     let list = user_blocks::CYCLE.after;
-    if !std::mem::take(&mut post.path.texts.in_cycle) || !list.is_on(&post.control.commons) {
+    if !std::mem::take(&mut post.places.in_cycle) || !list.is_on(&post.control.commons) {
         return Ok(());
     }
     cycle::cancel(&mut post.control)?;
@@ -67,7 +67,7 @@ pub(super) fn before(post: &mut Post, operation: &Operation) -> Result<()> {
         Operation::Arc(..) | Operation::Thread(_) => begin(post),
         Operation::Hole(_) => {
             begin(post)?;
-            match std::mem::replace(&mut post.path.texts.in_cycle, true) {
+            match std::mem::replace(&mut post.places.in_cycle, true) {
                 true => Ok(()),
                 false => write(post, user_blocks::CYCLE.before),
             }
@@ -75,7 +75,7 @@ pub(super) fn before(post: &mut Post, operation: &Operation) -> Result<()> {
         Operation::ToolChange(_) => end_cycle(post),
         Operation::End(_) => {
             end_cycle(post)?;
-            match post.path.texts.operations.end() {
+            match post.places.operations.end() {
                 true => write(post, user_blocks::OPERATION.after),
                 false => Ok(()),
             }
@@ -90,7 +90,7 @@ pub(super) fn before(post: &mut Post, operation: &Operation) -> Result<()> {
 /// As the user's blocks.
 #[cold]
 pub(crate) fn begin(post: &mut Post) -> Result<()> {
-    match post.path.texts.operations.moves() {
+    match post.places.operations.moves() {
         true => write(post, user_blocks::OPERATION.before),
         false => Ok(()),
     }

@@ -5,7 +5,6 @@ use fil_machine::axis_chain::Turn;
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::arc_parts::Rest;
-use super::places::Places;
 use super::{Coming, NamedFrames, Statement, Transformation, sense};
 use crate::cause::Cause;
 use crate::control_state::WorkOffset;
@@ -69,8 +68,6 @@ pub struct Path {
     pub(crate) sense: Sense,
     /// What was said in blocks that can be skipped.
     pub(super) skipped: Said,
-    /// What has begun that the user's blocks stand around.
-    pub(crate) texts: Places,
 }
 
 /// The tool axis of the CL file.

@@ -86,7 +86,7 @@ pub fn drills(post: &Post) -> bool {
 /// All that the motion refuses.
 #[inline]
 pub fn straight(post: &mut Post, target: Target) -> Result<()> {
-    if post.path.texts.are_on {
+    if post.places.are_on {
         places::begin(post)?;
     }
     match take_kind_of_motion(post) {
