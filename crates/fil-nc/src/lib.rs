@@ -61,6 +61,7 @@ pub mod plot;
 pub mod source;
 pub mod text;
 pub mod verify;
+pub mod work_offsets;
 
 /// The examples of the README, run with the documentation tests.
 #[cfg(doctest)]

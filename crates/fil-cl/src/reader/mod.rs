@@ -390,23 +390,6 @@ impl<'r> Reader<'r> {
         self.statement.line
     }
 
-    /// The short way for a statement that was read before.
-    #[inline]
-    fn read_repeated(&mut self, record: &mut Record) -> bool {
-        let Some((length, lines)) = self.repeated.read(self.lines.unread(), record) else {
-            return false;
-        };
-        record.line = self.take_lines(length, lines);
-        if record.kind == kind::SURFACE {
-            self.modal.in_arc = true;
-            self.note_circle(record);
-        } else {
-            self.modal.forms.arc_points = None;
-        }
-        self.count(record);
-        true
-    }
-
     fn gather(&mut self) -> Result<Option<Form>> {
         let recognition = &mut self.recognition;
         let gathered =

@@ -6,6 +6,7 @@ use std::hash::Hasher;
 
 use rustc_hash::FxHasher;
 
+use super::Reader;
 use crate::record::{Record, kind};
 use crate::words;
 
@@ -96,6 +97,25 @@ impl Repeated {
         known.text.extend_from_slice(text);
         known.lines = lines;
         copy(record, &mut known.record);
+    }
+}
+
+impl Reader<'_> {
+    /// The short way for a statement that was read before.
+    #[inline]
+    pub(super) fn read_repeated(&mut self, record: &mut Record) -> bool {
+        let Some((length, lines)) = self.repeated.read(self.lines.unread(), record) else {
+            return false;
+        };
+        record.line = self.take_lines(length, lines);
+        if record.kind == kind::SURFACE {
+            self.modal.in_arc = true;
+            self.note_circle(record);
+        } else {
+            self.modal.forms.arc_points = None;
+        }
+        self.count(record);
+        true
     }
 }
 

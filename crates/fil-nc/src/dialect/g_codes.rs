@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use super::Settings;
 use super::codes::{CycleKind, FeedMode, Function};
 use super::tables::RETURNS_BY_LEVEL;
-use crate::motion::{Compensation, offset_in_tenths};
+use crate::motion::Compensation;
+use crate::work_offsets::offset_in_tenths;
 
 /// G words by their numbers in tenths.
 #[derive(Clone, Debug)]

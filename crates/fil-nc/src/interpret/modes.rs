@@ -5,10 +5,8 @@ use super::words::{Words, letter};
 use super::{Fault, osp_thread};
 use crate::dialect::{Auxiliary, Family, Function, Group, Habit, Role, ToolCall};
 use crate::errors::NcCode;
-use crate::motion::{
-    Compensation, DRILLED, Event, FOOT, Modes, Speed, Spindle, StartMode, WORD_OFFSETS,
-    numbered_offset,
-};
+use crate::motion::{Compensation, DRILLED, Event, FOOT, Modes, Speed, Spindle, StartMode};
+use crate::work_offsets::{WORD_OFFSETS, numbered_offset};
 
 pub(super) const H: u8 = letter(b'H');
 const P: u8 = letter(b'P');

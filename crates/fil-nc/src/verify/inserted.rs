@@ -7,8 +7,9 @@ use super::settings::{Due, Settings};
 use super::verifier::Verifier;
 use crate::dialect::{Auxiliary, Family, Function, Role};
 use crate::interpret::sinumerik_words::{self, Value};
-use crate::motion::{Compensation, Speed, Spindle, numbered_offset};
+use crate::motion::{Compensation, Speed, Spindle};
 use crate::text::{Block, Word, read_block};
+use crate::work_offsets::numbered_offset;
 
 /// The T word of a turning tool is its number times this, and its offset.
 const TOOLS_STEP: i64 = 100;

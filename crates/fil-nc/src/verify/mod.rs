@@ -70,8 +70,8 @@ use crate::dialect::Habit;
 use crate::errors::NcCode;
 use crate::events::Events;
 use crate::interpret::PassedOver;
-use crate::motion::work_offset;
 use crate::source::Source;
+use crate::work_offsets::work_offset;
 use between::Watch;
 use blocks::OwnBlocks;
 

@@ -8,7 +8,8 @@ use super::Klartext;
 use super::line::Word;
 use crate::dialect::{CycleKind, FeedMode};
 use crate::errors::NcCode;
-use crate::motion::{Course, Event, Rate, Speed, Spindle, WORD_OFFSETS};
+use crate::motion::{Course, Event, Rate, Speed, Spindle};
+use crate::work_offsets::WORD_OFFSETS;
 
 /// Most pecks of a hole.
 const MAX_PECKS: f64 = 10_000.0;

@@ -4,7 +4,8 @@ use super::super::report::FindingKind;
 use super::super::say::short;
 use super::super::settings::{Quantity, Tolerances};
 use super::Expected;
-use crate::motion::{Compensation, Modes, Speed, Spindle, name_of_offset};
+use crate::motion::{Compensation, Modes, Speed, Spindle};
+use crate::work_offsets::name_of_offset;
 
 /// Allowed deviation of an oriented spindle, degrees.
 const ANGLE: f64 = 6e-4;

@@ -10,9 +10,10 @@ use fil_machine::user_blocks;
 
 use super::{Due, Settings, due};
 use crate::dialect::{self, Function};
-use crate::motion::{Spindle, WORD_OFFSETS, numbered_offset, offset_in_tenths};
+use crate::motion::Spindle;
 use crate::text::read_block;
 use crate::verify::expected_step::{CoolantKind, End, SpindleRange};
+use crate::work_offsets::{WORD_OFFSETS, numbered_offset, offset_in_tenths};
 
 impl Settings<'_> {
     /// When a spindle word must be in force.
