@@ -5,7 +5,7 @@ use filpost::locations::{Location, TABLE};
 use filpost::{Commons, Program, explain, ready, user_blocks};
 use serde_json::{Map, Value, json};
 
-use super::{FORMAT, LETTERS, NOT_USED, SPECIFICATION};
+use super::{LETTERS, slot};
 
 /// The settings whose name starts with `prefix`, by their name; `only` says which.
 pub fn settings(commons: &Commons, prefix: &str, only: impl Fn(&Location) -> bool) -> Value {
@@ -86,14 +86,13 @@ fn ready_posts() -> Vec<Commons> {
     ready::READY.iter().filter_map(build).collect()
 }
 
-/// The tape position of a letter, its format and specification.
+/// The slot of a letter.
 fn address(commons: &Commons, letter: u8) -> Value {
-    let int = |location: u32| commons.get(filpost::Kind::Int, location).unwrap_or(NOT_USED);
-    let slot = int(u32::from(filpost::Letter::of(letter).number()));
-    if !(1.0..NOT_USED).contains(&slot) {
-        return json!("none");
+    match slot(commons, letter) {
+        None => json!("none"),
+        Some(parts) => {
+            let [slot, format, spec] = parts.map(|part| part as i64);
+            json!({"slot": slot, "format": format, "spec": spec})
+        }
     }
-    let [slot, format, spec] =
-        [slot, int(FORMAT + slot as u32), int(SPECIFICATION + slot as u32)].map(|n| n as i64);
-    json!({"slot": slot, "format": format, "spec": spec})
 }

@@ -78,15 +78,22 @@ fn import(
     Ok(())
 }
 
-/// A letter with its tape position, format and specification.
-fn address(commons: &Commons, letter: u8) -> String {
+/// Tape position, format and specification of a letter; `None` for one that is not written.
+fn slot(commons: &Commons, letter: u8) -> Option<[f64; 3]> {
     let int = |location: u32| commons.get(Kind::Int, location).unwrap_or(NOT_USED);
-    let name = char::from(letter);
     let slot = int(u32::from(filpost::Letter::of(letter).number()));
-    if !(1.0..NOT_USED).contains(&slot) {
-        return format!("address.{name:<20} none");
+    let is_written = (1.0..NOT_USED).contains(&slot);
+    is_written.then(|| [slot, int(FORMAT + slot as u32), int(SPECIFICATION + slot as u32)])
+}
+
+/// A letter with its slot, as a line.
+fn address(commons: &Commons, letter: u8) -> String {
+    let name = char::from(letter);
+    match slot(commons, letter) {
+        None => format!("address.{name:<20} none"),
+        Some([slot, format, specification]) => {
+            let format = explain::value(format);
+            format!("address.{name:<20} slot {slot}, format {format}, spec {specification}")
+        }
     }
-    let (format, specification) = (int(FORMAT + slot as u32), int(SPECIFICATION + slot as u32));
-    let format = explain::value(format);
-    format!("address.{name:<20} slot {slot}, format {format}, spec {specification}")
 }

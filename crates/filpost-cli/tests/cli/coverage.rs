@@ -89,14 +89,15 @@ fn settings_that_no_case_notices_are_named() {
     let place = place.with("part.tap", NC.replace("S900 M3", "S900 M13"));
     let ran = place.run(&["test", ".", "--coverage"]);
     assert_eq!(ran.status, 0, "{ran:?}");
-    // The CL file turns the spindle, drills no hole and has no feed.
+    // The CL file turns the spindle, drills no hole, has no feed and one work offset.
     let unnoticed: Vec<&str> = ran
         .out
         .lines()
         .filter_map(|line| line.split_once("machine.toml: no case notices "))
         .map(|(_, said)| said)
         .collect();
-    let settings = ["cycle.drill_code", "feed.inverse_format", "feed.upm_format"];
+    let settings =
+        ["cycle.drill_code", "feed.inverse_format", "feed.upm_format", "fixture.extended_code"];
     assert_eq!(unnoticed, settings.map(|setting| format!("{setting} at its default")));
 }
 

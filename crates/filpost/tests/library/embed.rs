@@ -61,9 +61,14 @@ fn a_hundred_runs_of_one_program_give_the_same_bytes() {
     }
 }
 
+/// What the stream repeats.
+const TWO_POINTS: &[u8] = b"GOTO / 1, 2, 3\nGOTO / 2, 3, 4\n";
+
 /// A CL stream that never ends.
 struct Endless {
     reads: usize,
+    /// Where the next read begins in [`TWO_POINTS`].
+    at: usize,
     cancel_at: usize,
     token: CancelToken,
 }
@@ -74,20 +79,23 @@ impl Read for Endless {
         if self.reads == self.cancel_at {
             self.token.cancel();
         }
-        let line: &[u8] = if self.reads == 1 {
-            b"UNITS / MM\nFEDRAT / 200, MMPM\n"
-        } else {
-            &b"GOTO / 1, 2, 3\nGOTO / 2, 3, 4\n".repeat(100)
-        };
-        buffer[..line.len()].copy_from_slice(line);
-        Ok(line.len())
+        if self.reads == 1 {
+            let head = b"UNITS / MM\nFEDRAT / 200, MMPM\n";
+            buffer[..head.len()].copy_from_slice(head);
+            return Ok(head.len());
+        }
+        let count = buffer.len().min(3000);
+        let text = TWO_POINTS.iter().cycle().skip(self.at);
+        buffer[..count].iter_mut().zip(text).for_each(|(to, from)| *to = *from);
+        self.at = (self.at + count) % TWO_POINTS.len();
+        Ok(count)
     }
 }
 
 #[test]
 fn a_stream_without_end_is_cancelled() {
     let token = CancelToken::new();
-    let endless = Endless { reads: 0, cancel_at: 50, token: token.clone() };
+    let endless = Endless { reads: 0, at: 0, cancel_at: 50, token: token.clone() };
     let program = mill().build().expect("a program");
     let error = program.start().cancel(&token).stream(endless, io::sink()).expect_err("cancelled");
     assert!(error.is_cancelled() && codes(&error) == ["E0711"], "{error}");

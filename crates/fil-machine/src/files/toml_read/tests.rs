@@ -155,12 +155,14 @@ fn a_letter_takes_its_digits_along() {
     }
 }
 
+/// The machine of a file with one key.
+fn read_key(key: &str, value: &str) -> Result<Commons> {
+    read_toml("machine.toml", &format!("{key} = {value}")).map(|(commons, _)| commons)
+}
+
 #[test]
 fn allowed_offsets_are_names_of_offsets() {
-    let read = |list: &str| {
-        let text = format!("verify.allowed_offsets = {list}");
-        read_toml("machine.toml", &text).map(|(commons, _)| commons)
-    };
+    let read = |list: &str| read_key("verify.allowed_offsets", list);
     let commons = read("['G54', 'g54.1p3', 'E2', 'G59.1']").unwrap();
     assert_eq!(commons.allowed_offsets(), ["G54", "G54.1P3", "E2", "G59.1"]);
     let text = crate::files::write_toml(&commons);
@@ -175,10 +177,7 @@ fn allowed_offsets_are_names_of_offsets() {
 
 #[test]
 fn allowed_functions_are_effects() {
-    let read = |list: &str| {
-        let text = format!("verify.allowed_functions = {list}");
-        read_toml("machine.toml", &text).map(|(commons, _)| commons)
-    };
+    let read = |list: &str| read_key("verify.allowed_functions", list);
     let commons = read("['M88', 'G187 P*']").unwrap();
     let does = |block: &str| commons.effects().of(block).map(|found| found.rule.effect);
     assert_eq!(does("G187 P2"), Some(Effect::Nothing));
