@@ -195,7 +195,7 @@ impl Overview {
         }
         let known = self.tools.iter().position(|entry| entry.number == number);
         let index = known.unwrap_or_else(|| {
-            self.tools.push(ToolEntry { number: number, ..ToolEntry::default() });
+            self.tools.push(ToolEntry { number, ..ToolEntry::default() });
             self.tools.len() - 1
         });
         let entry = &mut self.tools[index];

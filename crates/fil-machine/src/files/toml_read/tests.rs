@@ -156,7 +156,7 @@ fn a_letter_takes_its_digits_along() {
 }
 
 /// The machine of a file with one key.
-fn read_key(key: &str, value: &str) -> Result<Commons> {
+fn read_key(key: &str, value: &str) -> std::result::Result<Commons, Vec<Diag>> {
     read_toml("machine.toml", &format!("{key} = {value}")).map(|(commons, _)| commons)
 }
 
