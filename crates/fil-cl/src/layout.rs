@@ -7,7 +7,8 @@ use fil_diag::Diag;
 
 use crate::errors::ClCode;
 use crate::record::{CIRCLE_SURFACE, CUTTER_SUB, Circle, Record, Word, kind, mode, motion};
-use crate::vocabulary::WordId;
+use crate::reader::reads_as_text;
+use crate::vocabulary::{Vocabulary, WordId};
 use crate::words;
 
 /// How far the length of a tool axis or of a circle's axis may be from 1: CL files round to
@@ -127,6 +128,16 @@ pub(crate) fn needs_items(major: WordId) -> bool {
             | words::INTOL
             | words::OUTTOL
     )
+}
+
+/// True for a record of an NC alias, `NAME : text`: a word of nobody with one text that is no item.
+pub fn is_alias(record: &Record, vocab: &Vocabulary) -> bool {
+    match record.data[..] {
+        [word @ Word::Text { .. }] if takes_texts_as_items(record.major) => {
+            record.kind == kind::POST && !reads_as_text(vocab, record.text_of(word))
+        }
+        _ => false,
+    }
 }
 
 /// True for the words whose items may be texts: names of a machine, and words that are not

@@ -6,7 +6,7 @@ use std::io::Write;
 use fil_diag::Diag;
 
 use crate::errors::ClCode;
-use crate::layout::takes_text;
+use crate::layout::{is_alias, takes_text};
 use crate::reader::reads_as_text;
 use crate::record::{Record, Word, kind};
 use crate::vocabulary::Vocabulary;
@@ -44,7 +44,9 @@ impl<W: Write> Writer<W> {
         }
         self.line.push_str(vocab.name(record.major));
         if record.kind == kind::POST && takes_text(record.major) {
-            self.free_text(record)?;
+            self.free_text(record, " / ")?;
+        } else if is_alias(record, vocab) {
+            self.free_text(record, " : ")?;
         } else {
             self.items(record, vocab)?;
         }
@@ -59,7 +61,7 @@ impl<W: Write> Writer<W> {
         self.line.clear();
         self.line.push_str("$$ ");
         self.line.push_str(vocab.name(record.major));
-        self.free_text(record)?;
+        self.free_text(record, " / ")?;
         self.end_line()
     }
 
@@ -75,7 +77,7 @@ impl<W: Write> Writer<W> {
         self.output
     }
 
-    fn free_text(&mut self, record: &Record) -> Result<(), Box<Diag>> {
+    fn free_text(&mut self, record: &Record, between: &str) -> Result<(), Box<Diag>> {
         let [word @ Word::Text { .. }] = record.data[..] else {
             return Err(unwritable("a text statement with other words than one text"));
         };
@@ -83,7 +85,7 @@ impl<W: Write> Writer<W> {
         if text.contains(['\n', '\r', '\0']) || text.ends_with([' ', '\t']) {
             return Err(unwritable("a text that a line cannot hold"));
         }
-        self.line.push_str(" / ");
+        self.line.push_str(between);
         self.line.push_str(text);
         Ok(())
     }

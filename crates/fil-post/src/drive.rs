@@ -18,6 +18,7 @@ use crate::post::{Lane, Post};
 use crate::site_word;
 use crate::words as word;
 use crate::words::end;
+use fil_cl::layout::is_alias;
 use fil_cl::record::kind;
 use fil_cl::vocabulary::{Vocabulary, words as w};
 use fil_cl::{Record, Word, WordId, operation_sign};
@@ -152,7 +153,7 @@ fn carry_out(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resul
             Err(refused(post, record, vocabulary))
         }
         Some(Handler::Refused) => Err(refused(post, record, vocabulary)),
-        None => Err(unknown(record.major, vocabulary)),
+        None => Err(unknown(record, vocabulary)),
     }
 }
 
@@ -291,9 +292,23 @@ fn refused(post: &Post, record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
     diag
 }
 
-fn unknown(word: WordId, vocabulary: &Vocabulary) -> Box<Diag> {
-    let mut diag = PostCode::UnknownWord.diag(format!("no handler for {}", vocabulary.name(word)));
-    let meant = site_word::perhaps_meant(word, vocabulary);
-    diag.hint = meant.map(|meant| format!("did you mean {meant}?"));
+fn unknown(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
+    let name = vocabulary.name(record.major);
+    let no_handler = format!("no handler for {name}");
+    let (message, hint) = if is_alias(record, vocabulary) {
+        let hint = format!(
+            "An NC alias stands for LOADTL, TURRET, PARTNO or MFGNO: write a section CIMFIL/ON,{name} that gives the statement, or list {name} under words.without_effect."
+        );
+        (no_handler, Some(hint))
+    } else if let Some(does) = site_word::on_other_machines(name) {
+        let hint =
+            format!("Write a section CIMFIL/ON,{name} that writes the code of your machine.");
+        (format!("{no_handler}, which {does}"), Some(hint))
+    } else {
+        let meant = site_word::perhaps_meant(record.major, vocabulary);
+        (no_handler, meant.map(|meant| format!("did you mean {meant}?")))
+    };
+    let mut diag = PostCode::UnknownWord.diag(message);
+    diag.hint = hint;
     diag
 }

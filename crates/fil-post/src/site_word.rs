@@ -22,6 +22,19 @@ const DOING: [&str; 58] = [
     "ROT", "SHIFT", "SPIN", "SPLIN", "STOP", "SWIV", "TABL", "TILT", "TRANS", "TURR",
 ];
 
+/// Words of Creo for machines that no post here is for, with what they do there (PTC's help on the
+/// statements of NC sequences).
+const OF_OTHER_MACHINES: [(&str, &str); 3] = [
+    ("DMIS", "begins or ends what a coordinate measuring machine does"),
+    ("FLUSH", "sets the flushing of a wire EDM machine"),
+    ("GENRTR", "names the generator register of a wire EDM machine"),
+];
+
+/// What a word does on a machine that no post here is for.
+pub fn on_other_machines(name: &str) -> Option<&'static str> {
+    OF_OTHER_MACHINES.iter().find(|(word, _)| *word == name).map(|(_, does)| *does)
+}
+
 /// The word that an unknown major word was perhaps meant to be: one that the post carries
 /// out, else one that it lists as without effect, else one of the vocabulary.
 pub fn perhaps_meant(word: WordId, vocabulary: &Vocabulary) -> Option<&str> {

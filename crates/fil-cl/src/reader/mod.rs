@@ -319,7 +319,15 @@ impl<'r> Reader<'r> {
         match form {
             Form::Text(major) => {
                 self.major = Some(major);
-                self.take_text(record, major)?;
+                self.take_text(record, major, 0)?;
+            }
+            Form::Alias(length) => {
+                let (name, rest) = self.statement.joined.split_at(length);
+                let major = vocab.intern_bytes(name);
+                let blanks = rest.len() - rest.trim_ascii_start().len();
+                let text = rest[blanks + 1..].trim_ascii_start().len();
+                self.major = Some(major);
+                self.take_text(record, major, self.statement.joined.len() - text)?;
             }
             Form::Pseudo | Form::Frame => {
                 self.parse_items(vocab, record, true)?;
@@ -405,9 +413,14 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Makes the record of a text statement. Control characters stay in the text: whoever
+    /// Makes the record of a text statement, whose text begins there. Control characters stay in the text: whoever
     /// writes it must refuse them, and a comment that is written nowhere may have them.
-    fn take_text(&mut self, record: &mut Record, major: crate::WordId) -> Result<()> {
+    fn take_text(
+        &mut self,
+        record: &mut Record,
+        major: crate::WordId,
+        from: usize,
+    ) -> Result<()> {
         self.refuse_bytes(is_nul)?;
         self.item_ranges.clear();
         if major == words::INSERT && self.statement.has_skip_mark(&self.lines) {
@@ -416,9 +429,10 @@ impl<'r> Reader<'r> {
             let diag = self.diag(ClCode::BadWord, message, 0..self.statement.joined.len());
             return Err(Box::new(diag.hint(hint)));
         }
-        match std::str::from_utf8(&self.statement.joined) {
+        let text = &self.statement.joined[from..];
+        match std::str::from_utf8(text) {
             Ok(text) => record.text.push_str(text),
-            Err(_) => record.text.push_str(&(self.options.decode)(&self.statement.joined)),
+            Err(_) => record.text.push_str(&(self.options.decode)(text)),
         }
         record.data.push(Word::Text { start: 0, len: record.text.len() as u32 });
         (record.major, record.kind, record.sub) = (major, kind::POST, 0);

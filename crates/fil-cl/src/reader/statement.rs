@@ -23,6 +23,16 @@ pub(super) enum Form {
     Frame,
     /// A text statement; the joined text is the free text.
     Text(WordId),
+    /// `NAME : text`, which stands for a statement of Creo (an NC alias of PTC's help); the name
+    /// takes so many bytes.
+    Alias(usize),
+}
+
+impl Form {
+    /// What follows the word is one text, and no list of items.
+    fn is_text(self) -> bool {
+        matches!(self, Form::Text(_) | Form::Alias(_))
+    }
 }
 
 /// Why no statement could be gathered.
@@ -196,7 +206,7 @@ impl Statement {
                 Form::Plain | Form::Frame => true,
                 // Creo continues a list of values; a name may end in the sign.
                 Form::Pseudo => before.trim_ascii_end().ends_with(b","),
-                Form::Text(_) => false,
+                Form::Text(_) | Form::Alias(_) => false,
             };
             goes_on.then_some(Join::Between)?
         };
@@ -212,7 +222,7 @@ impl Statement {
         join: Join,
         context: Context<'_>,
     ) -> Result<(), GatherError> {
-        let is_text = matches!(form, Form::Text(_));
+        let is_text = form.is_text();
         loop {
             let number = lines.line();
             let Some(line) = next_line(lines, context)? else {
@@ -381,7 +391,20 @@ fn opening(line: &[u8]) -> (Form, usize) {
             return (Form::Text(id), blanks + text);
         }
     }
-    (Form::Plain, 0)
+    match alias(rest) {
+        Some(name) => (Form::Alias(name), blanks),
+        None => (Form::Plain, 0),
+    }
+}
+
+/// Length of the name before the colon of an NC alias.
+fn alias(line: &[u8]) -> Option<usize> {
+    let is_of_name = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
+    let length = line.iter().position(|byte| !is_of_name(byte))?;
+    let colon = line[length..].trim_ascii_start().first() == Some(&b':');
+    let name = &line[..length];
+    let is_name = name.first().is_some_and(u8::is_ascii_alphabetic) && !words::is_major_name(name);
+    (colon && is_name).then_some(length)
 }
 
 /// Length of the text word at the start of a line, in any case; where the name has a blank
@@ -418,7 +441,7 @@ fn text_start(line: &[u8], length: usize) -> Option<usize> {
 /// Where the text of a line ends that starts at `start`; `None` for a line
 /// that says nothing. A text statement says something even without text.
 fn content(line: &[u8], start: usize, form: Form) -> Option<usize> {
-    if let Form::Text(_) = form {
+    if form.is_text() {
         return Some(trim_end(line).len().max(start));
     }
     let mut signs = memchr::memchr_iter(b'$', &line[start..]).map(|at| start + at);

@@ -146,7 +146,8 @@ impl<H: Host + ?Sized> Vm<'_, H> {
 
     fn record_text(&mut self, registers: &mut Registers) -> Result<Value, Box<Diag>> {
         let record = self.current()?;
-        if !takes_text(record.major) {
+        let is_one_text = matches!(record.data[..], [Word::Text { .. }]);
+        if !takes_text(record.major) && !is_one_text {
             let name = self.vocab.name(record.major);
             return Err(fault(RunCode::Missing, format!("a {name} record holds no text")));
         }
