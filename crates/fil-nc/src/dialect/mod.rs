@@ -304,6 +304,11 @@ impl Dialect {
         self.codes.functions.holds(Function::Surface(true))
     }
 
+    /// A face can be milled in polar interpolation.
+    pub(crate) fn has_polar(&self) -> bool {
+        self.codes.functions.holds(Function::Polar(true)) || self.has(Habit::Transforms)
+    }
+
     /// What an M word means; an M word that the machine does not name
     /// and that steers no program is [`Auxiliary::Other`].
     pub fn auxiliary(&self, code: i64) -> Auxiliary {

@@ -207,7 +207,11 @@ impl State<'_> {
         }
         if turns && course == Course::Feed {
             let Some(radius) = self.live.cylinder else {
-                return refuse("C moves at feed per minute without a cylinder");
+                if self.dialect.has_polar() {
+                    return refuse("C moves at feed per minute without a cylinder");
+                }
+                // The tip goes along a curve, which the check of the path measures.
+                return Ok(course);
             };
             if [self.at[0], to[0]].iter().any(|x| (x - radius).abs() > DIGITS) {
                 return refuse("C turns at a feed beside the cylinder on which it counts");

@@ -12,6 +12,7 @@ use nalgebra::{Point3, Vector3};
 use super::arc_parts::{
     FULL, Parts, RADIUS_TOLERANCE, SAME_POINT, Step, flat, least_angle, start_angle, sweep,
 };
+use super::mill_turn::face;
 use super::position::Solution;
 use super::{feed_rules, frame, rotary, tip_control};
 use super::{frame_begin, long_arc, position};
@@ -69,8 +70,9 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         frame_begin::turn_to(post, Target { axis, ..target }, false)?;
     }
     tip_control::end_outside(post)?;
+    let turns_c = face::is_cut_by_c(&post.control);
     let whole =
-        if turns_axis { None } else { in_plane(post, arc, start, (radius, sweep), target)? };
+        if turns_axis || turns_c { None } else { in_plane(post, arc, start, (radius, sweep), target)? };
     let whole = match whole {
         Some((whole, _)) if is_across_compensation(post, &whole)? => None,
         Some((whole, _)) if !post.control.family().has_arc(&post.control, whole.plane) => None,

@@ -12,6 +12,7 @@ use fil_machine::locations as loc;
 use fil_machine::tables::MachineTables;
 use nalgebra::Point3;
 
+use super::mill_turn::face;
 use super::position;
 use super::state::{Arrived, OnTape, Straightness};
 use super::tip::{certain_distance, distance, largest_distance, tip, tip_beside};
@@ -41,6 +42,8 @@ struct Turning<'a> {
     line: [Point3<f64>; 2],
     /// The rotary axes at the end.
     turns: [Turn; 2],
+    /// C is where the tip is over the face, and does not go evenly.
+    by_radius: bool,
 }
 
 /// Where the axes stand before a motion.
@@ -78,10 +81,24 @@ pub(super) fn tolerance(post: &Post) -> Result<Option<f64>> {
 /// # Errors
 /// No feed; a tolerance that takes more parts than one motion may have; as
 /// [`family::feed`].
-#[inline(never)]
 pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Target) -> Result<()> {
-    let start = stands(post, before);
     let allowed = tolerance(post)?;
+    feed_within(post, before, to, target, allowed)
+}
+
+/// The same with the tip as near to its line as this; `None` for as far as it goes.
+///
+/// # Errors
+/// As [`feed`].
+#[inline(never)]
+pub(super) fn feed_within(
+    post: &mut Post,
+    before: [f64; 2],
+    to: Position,
+    target: Target,
+    allowed: Option<f64>,
+) -> Result<()> {
+    let start = stands(post, before);
     let enough = allowed.map_or_else(|| usual(post), Ok)?;
     let (end, _) = position::transformed(post, target);
     let turning = Turning::new(post, &start, to, end);
@@ -93,7 +110,7 @@ pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Targ
     };
     let (arrival, scaled) = turning.arrival(&to)?;
     if least > 1 || !turning.surely_stays_within(enough, &from.position, &arrival.position) {
-        return divided(post, [start.position, to], (target, end), allowed, least);
+        return divided(post, &start, to, (target, end), allowed, least);
     }
     let way = turning.way_of_tip(from.tip, arrival.tip);
     let part = feed.between(&from.position, &arrival.position, way);
@@ -118,16 +135,16 @@ pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Targ
 #[inline(never)]
 fn divided(
     post: &mut Post,
-    [from, to]: [Position; 2],
+    start: &Start,
+    to: Position,
     (target, end): (Target, Point3<f64>),
     allowed: Option<f64>,
     least: u32,
 ) -> Result<()> {
     let word = position::word_of(post, target);
-    let start = Start { position: from, tip: None, on_tape: None };
-    let turning = Turning::new(post, &start, to, end);
+    let turning = Turning::new(post, start, to, end);
     let feed = TurningFeed::of(post)?;
-    let (begin, _) = turning.arrival(&from)?;
+    let (begin, _) = turning.arrival(&start.position)?;
     let parts = match allowed {
         Some(allowed) => turning.divided(&begin, allowed, least)?,
         None => turning.parts(least)?,
@@ -271,7 +288,9 @@ pub(super) fn stands(post: &Post, before: [f64; 2]) -> Start {
         Some(there) => there.position,
         None => {
             let linear = tables.chain().linear(point, before);
-            [linear.x, linear.y, linear.z, before[0], before[1]]
+            // C is rounded first: what it leaves beside the axis is no position of a slide.
+            let y = if face::is_cut_by_c(&post.control) { 0.0 } else { linear.y };
+            [linear.x, y, linear.z, before[0], before[1]]
         }
     };
     let (mut tape, mut moved) = (exact, post.path.point.is_none());
@@ -297,7 +316,8 @@ impl<'a> Turning<'a> {
         let from = start.position;
         let begin = start.tip.unwrap_or_else(|| tip(chain, &from));
         let turns = post.path.turning.turns;
-        Turning { tables, chain, ends: [from, to], line: [begin, end], turns }
+        let by_radius = face::is_cut_by_c(&post.control);
+        Turning { tables, chain, ends: [from, to], line: [begin, end], turns, by_radius }
     }
 
     /// How far the tip goes.
@@ -322,8 +342,11 @@ impl<'a> Turning<'a> {
             let mut position = to;
             if number < count {
                 let share = f64::from(number) / f64::from(count);
-                let angles = [3, 4].map(|n| from[n] + (to[n] - from[n]) * share);
+                let mut angles = [3, 4].map(|n| from[n] + (to[n] - from[n]) * share);
                 let tip = self.line[0] + (self.line[1] - self.line[0]) * share;
+                if self.by_radius {
+                    angles[0] = face::angle(tip, angles[0]);
+                }
                 let linear = self.chain.linear(tip, angles);
                 position = [linear.x, linear.y, linear.z, angles[0], angles[1]];
             }
@@ -435,7 +458,7 @@ fn warn_of_deviation(post: &mut Post, allowed: Option<f64>, ends: f64) {
 }
 
 /// A deviation that is worth a word where nothing limits it, in the unit of the program.
-fn usual(post: &Post) -> Result<f64> {
+pub(super) fn usual(post: &Post) -> Result<f64> {
     const USUAL: f64 = 0.01;
     Ok(USUAL / post.control.require_unit()?.in_mm())
 }

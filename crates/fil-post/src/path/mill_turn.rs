@@ -6,6 +6,7 @@
 
 mod crossing;
 mod cylinder;
+pub(super) mod face;
 pub(super) mod hole;
 pub(super) mod live_tool;
 mod polar;
@@ -213,7 +214,7 @@ fn refuse_feed_a_turn(mode: Option<FeedMode>) -> Result<()> {
 /// A feed motion of a live tool in which C turns.
 ///
 /// # Errors
-/// A tool along Z; as [`cylinder::feed`].
+/// A tool along Z before polar interpolation has begun; as [`cylinder::feed`] and [`face::feed`].
 pub(super) fn turning_feed(
     post: &mut Post,
     from: Position,
@@ -222,14 +223,13 @@ pub(super) fn turning_feed(
 ) -> Result<()> {
     let (_, axis) = position::transformed(post, target);
     if lie(axis)? == Lie::Axial {
-        let message = "C would turn in a feed move of a tool along Z";
-        let has_code = post.control.commons.read(loc::MILL_TURN_POLAR_CODE).is_some();
-        let hint = if has_code {
-            "Put RAPID before the first move: polar interpolation begins there."
-        } else {
-            "Set mill_turn.polar_code (polar interpolation): without it the post drills on the face, and mills no path across it."
-        };
-        return PostCode::Polar.err_with(message, hint);
+        if face::is_cut_by_c(&post.control) {
+            return face::feed(post, from, to, target);
+        }
+        return PostCode::Polar.err_with(
+            "C would turn in a feed move of a tool along Z",
+            "Put RAPID before the first move: polar interpolation begins there.",
+        );
     }
     cylinder::feed(post, from, to, target)
 }
@@ -389,10 +389,9 @@ pub(super) fn before_arc(post: &mut Post, arc: &Arc, target: Target) -> Result<(
             polar::check_arc(post, arc, target)
         }
         (false, true) => polar::end(post),
-        (true, false) if !has_y(&post.control) => PostCode::Polar.err(
-            "an arc by a tool along Z; polar interpolation (mill_turn.polar_code) begins at a \
-             rapid move",
-        ),
+        (true, false) if !has_y(&post.control) && !face::is_cut_by_c(&post.control) => {
+            PostCode::Polar.err("an arc by a tool along Z; polar interpolation begins at a rapid move")
+        }
         _ => Ok(()),
     }
 }

@@ -1,5 +1,6 @@
 //! The positions of the axes for a live tool.
 
+use super::face;
 use crate::control::Control;
 use crate::errors::PostCode;
 use crate::path::position;
@@ -15,7 +16,7 @@ const SAME_AXIS: f64 = 1e-5;
 /// A tool nearer than this to the axis of the spindle leaves C open, mm or inch.
 pub(super) const CENTER: f64 = 1e-9;
 
-const FULL: f64 = 360.0;
+pub(super) const FULL: f64 = 360.0;
 
 /// How a live tool lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,7 +59,7 @@ pub fn position_of(
     let has_y = has_y(&post.control);
     let asked = match lie(axis)? {
         Lie::Axial if has_y || libm::hypot(point.x, point.y) < CENTER => last,
-        Lie::Axial => libm::atan2(point.y, point.x).to_degrees(),
+        Lie::Axial => face::angle(point, last),
         Lie::Radial => libm::atan2(axis.y, axis.x).to_degrees(),
     };
     let tables = &post.control.tables;

@@ -254,11 +254,13 @@ pub(super) fn check_arc(post: &Post, arc: &Arc, target: Target) -> Result<()> {
     Ok(())
 }
 
-fn least(post: &Post) -> Result<f64> {
+/// Nearest that a path may come to the axis of the spindle, in the unit of the program.
+pub(super) fn least(post: &Post) -> Result<f64> {
     Ok(NEAREST / post.control.require_unit()?.in_mm())
 }
 
-fn passes(nearest: f64) -> Result<()> {
+/// Refuses a path so near to the axis of the spindle.
+pub(super) fn passes(nearest: f64) -> Result<()> {
     PostCode::Polar.err(format!("the path passes the axis of the spindle at {nearest:.4}"))
 }
 
