@@ -6,8 +6,8 @@
 use fil_diag::Diag;
 
 use crate::errors::ClCode;
-use crate::record::{CIRCLE_SURFACE, CUTTER_SUB, Circle, Record, Word, kind, mode, motion};
 use crate::reader::reads_as_text;
+use crate::record::{CIRCLE_SURFACE, CUTTER_SUB, Circle, Record, Word, kind, mode, motion};
 use crate::vocabulary::{Vocabulary, WordId};
 use crate::words;
 

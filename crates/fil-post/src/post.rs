@@ -139,10 +139,12 @@ impl Post {
         self.path.sense.choice = Choice::Made;
     }
 
-    /// The sense of the arcs is proved for the system that wrote the CL file: none is refused
-    /// for the motions beside it.
-    pub fn prove_arcs(&mut self) {
-        self.path.sense.course.is_proved = true;
+    /// What the system that wrote the CL file is known for: the sense of its arcs is proved, so that
+    /// none is refused for the motions beside it; its full turns end exactly where they begin.
+    pub fn know_arcs(&mut self, are_proved: bool, exact_turns: bool) {
+        let course = &mut self.path.sense.course;
+        course.is_proved |= are_proved;
+        course.exact_turns |= exact_turns;
     }
 
     /// The arcs were refused, and [`Post::trust_arcs`] would make that a warning.

@@ -19,6 +19,7 @@ pub(super) const RULES: DialectRules = DialectRules {
         counts: &[7],
         sense: ArcSense::ByWord,
         proof: Some("20 of 20 arcs that CLT and APT files of the same operations give"),
+        exact_turns: false,
     }),
     geometry: false,
     splines: false,

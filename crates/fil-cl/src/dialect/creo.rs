@@ -19,7 +19,12 @@ pub(super) const RULES: DialectRules = DialectRules {
         Sign::Word(w::PPWORD),
         Sign::Text(w::REMARK, "PRO/CLFILE"),
     ],
-    circle: Some(CircleForm { counts: &[4, 7], sense: ArcSense::RightHand, proof: None }),
+    circle: Some(CircleForm {
+        counts: &[4, 7],
+        sense: ArcSense::RightHand,
+        proof: None,
+        exact_turns: false,
+    }),
     geometry: true,
     splines: false,
     axis: AxisRule::AsWritten,

@@ -13,7 +13,12 @@ pub(super) const RULES: DialectRules = DialectRules {
     name: "ffcam",
     title: "Makino FFCAM (.cldata)",
     signs: &[Sign::Text(w::PPRINT, "APTCL-SPEC")],
-    circle: Some(CircleForm { counts: &[11], sense: ArcSense::LeftHand, proof: None }),
+    circle: Some(CircleForm {
+        counts: &[11],
+        sense: ArcSense::LeftHand,
+        proof: None,
+        exact_turns: false,
+    }),
     geometry: false,
     splines: false,
     axis: AxisRule::Modal,

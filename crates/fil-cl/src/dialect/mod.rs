@@ -131,6 +131,8 @@ pub struct CircleForm {
     /// What proves the sense: programs that came with CL files, arc by arc. Arcs of such a
     /// dialect are right as they are read, whatever the motions beside them look like.
     pub proof: Option<&'static str>,
+    /// A full turn ends exactly where it begins: an end a little farther on is that of a tiny arc.
+    pub exact_turns: bool,
 }
 
 impl CircleForm {
@@ -258,6 +260,13 @@ impl ClDialect {
     #[doc(hidden)]
     pub fn proof_of_arcs(self) -> Option<&'static str> {
         self.rules().circle.and_then(|form| form.proof)
+    }
+
+    /// An arc whose end lies a little beyond its start, in the running direction, is a tiny one and
+    /// no full turn.
+    #[doc(hidden)]
+    pub fn has_exact_turns(self) -> bool {
+        self.rules().circle.is_some_and(|form| form.exact_turns)
     }
 
     /// The system is told by its signs, and has one rule for its arcs.

@@ -21,7 +21,12 @@ pub(super) const RULES: DialectRules = DialectRules {
         Sign::Word(w::PAINT),
         Sign::Word(w::END_OF_PATH),
     ],
-    circle: Some(CircleForm { counts: &[11], sense: ArcSense::LeftHand, proof: None }),
+    circle: Some(CircleForm {
+        counts: &[11],
+        sense: ArcSense::LeftHand,
+        proof: None,
+        exact_turns: true,
+    }),
     geometry: false,
     splines: true,
     axis: AxisRule::Modal,

@@ -17,6 +17,7 @@ pub(super) const RULES: DialectRules = DialectRules {
         counts: &[6, 7],
         sense: ArcSense::RightHand,
         proof: Some("2021 of 2021 arcs of Heidenhain programs"),
+        exact_turns: false,
     }),
     geometry: false,
     splines: false,

@@ -415,12 +415,7 @@ impl<'r> Reader<'r> {
 
     /// Makes the record of a text statement, whose text begins there. Control characters stay in the text: whoever
     /// writes it must refuse them, and a comment that is written nowhere may have them.
-    fn take_text(
-        &mut self,
-        record: &mut Record,
-        major: crate::WordId,
-        from: usize,
-    ) -> Result<()> {
+    fn take_text(&mut self, record: &mut Record, major: crate::WordId, from: usize) -> Result<()> {
         self.refuse_bytes(is_nul)?;
         self.item_ranges.clear();
         if major == words::INSERT && self.statement.has_skip_mark(&self.lines) {

@@ -71,8 +71,11 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     }
     tip_control::end_outside(post)?;
     let turns_c = face::is_cut_by_c(&post.control);
-    let whole =
-        if turns_axis || turns_c { None } else { in_plane(post, arc, start, (radius, sweep), target)? };
+    let whole = if turns_axis || turns_c {
+        None
+    } else {
+        in_plane(post, arc, start, (radius, sweep), target)?
+    };
     let whole = match whole {
         Some((whole, _)) if is_across_compensation(post, &whole)? => None,
         Some((whole, _)) if !post.control.family().has_arc(&post.control, whole.plane) => None,
@@ -119,6 +122,10 @@ pub(super) fn refuse_nearly_full(post: &Post, arc: &Arc, end: Target) -> Result<
     let apart = (way - arc.axis * arc.axis.dot(&way)).norm();
     let near = if post.control.is_metric() { NEARLY_SAME } else { NEARLY_SAME / INCH };
     if apart < SAME_POINT || apart >= near || 2.0 * flat(arc, start).norm() <= near {
+        return Ok(());
+    }
+    let [from, to] = [start, end.point].map(|point| flat(arc, point));
+    if post.path.sense.course.exact_turns && arc.axis.dot(&from.cross(&to)) > 0.0 {
         return Ok(());
     }
     PostCode::ArcNearlyFull

@@ -390,7 +390,8 @@ pub(super) fn before_arc(post: &mut Post, arc: &Arc, target: Target) -> Result<(
         }
         (false, true) => polar::end(post),
         (true, false) if !has_y(&post.control) && !face::is_cut_by_c(&post.control) => {
-            PostCode::Polar.err("an arc by a tool along Z; polar interpolation begins at a rapid move")
+            PostCode::Polar
+                .err("an arc by a tool along Z; polar interpolation begins at a rapid move")
         }
         _ => Ok(()),
     }

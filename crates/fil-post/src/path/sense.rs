@@ -41,6 +41,8 @@ pub struct Course {
     tally: Tally,
     /// The sense of the file's arcs is proved: what runs back is a cusp, and no other sense.
     pub is_proved: bool,
+    /// A full turn ends exactly where it begins.
+    pub exact_turns: bool,
 }
 
 /// An arc whose end is not judged.

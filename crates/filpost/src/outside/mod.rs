@@ -230,8 +230,11 @@ impl<'o, 'r> Outside<'o, 'r> {
         if record.kind == kind::MOTION {
             return Ok(());
         }
-        if record.kind == kind::SURFACE && self.has_proved_arcs() {
-            self.post.prove_arcs();
+        if record.kind == kind::SURFACE
+            && let Some(found) = self.source.recognized()
+        {
+            let dialect = found.dialect;
+            self.post.know_arcs(dialect.proof_of_arcs().is_some(), dialect.has_exact_turns());
         }
         if self.post.looks_ahead_for_axes() {
             self.follow_stretch(record, vocabulary);
@@ -243,11 +246,6 @@ impl<'o, 'r> Outside<'o, 'r> {
             self.look_for_axes(vocabulary);
         }
         Ok(())
-    }
-
-    /// True where the system that wrote the CL file is known to mean its arcs as they are read.
-    fn has_proved_arcs(&self) -> bool {
-        self.source.recognized().is_some_and(|found| found.dialect.proof_of_arcs().is_some())
     }
 
     #[cold]
