@@ -307,7 +307,8 @@ mod tests {
             match found {
                 None => prop_assert!(nearest >= shape.radius() - 1e-9),
                 Some(found) => {
-                    prop_assert!(found <= least + 1e-9, "{} above {}", found, least);
+                    // Where the edge of the tool is as steep as the way, rounding counts most.
+                    prop_assert!(found <= least + 1e-5, "{} above {}", found, least);
                     // A steep edge is met between two samples.
                     let is_at_edge = (nearest - shape.radius()).abs() < 0.02
                         || libm::hypot(to[0] - from[0], to[1] - from[1]) < 0.5;

@@ -17,7 +17,7 @@
 //! let program = Program::builder().ready("fanuc-mill").build()?;
 //! let posted = program.post(cl)?;
 //! assert!(posted.text().contains("G1 G43 X1. Y2. Z3. F200. H1"));
-//! assert_eq!(posted.report().blocks, 19);
+//! assert_eq!(posted.report().blocks, 20);
 //! # Ok::<(), filpost::Error>(())
 //! ```
 //!
