@@ -50,7 +50,7 @@ impl<C: Steps> Verifier<'_, C> {
         self.await_blocks_before_change();
         let is_first = self.blocks.changes == 0;
         self.blocks.changes += 1;
-        if !is_first && self.settings.switches_off_at_change() {
+        if self.settings.switches_off_at_change() {
             self.take_blocks(&self.settings.blocks_of_switching_off());
         }
         self.go_to_change_position(cl_line);

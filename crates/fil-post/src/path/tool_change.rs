@@ -70,9 +70,7 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     let cause = wanted.causes[0].whole();
     user_texts::write(control, around[0])?;
     control.because(cause, |control| {
-        if wanted.by_hand || !is_first {
-            way_home::switch_off_for_change(control, wanted.by_hand)?;
-        }
+        way_home::switch_off_for_change(control, wanted.by_hand, is_first)?;
         control.tip.is_away |= go_to_change_position(control, cause)? || !wanted.by_hand;
         match (wanted.by_hand, is_first) {
             (true, _) => way_home::stop_for_operator(control, wanted.tool),

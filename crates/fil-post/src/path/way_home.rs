@@ -16,18 +16,25 @@ use crate::operation::motion::{Motion, RapidCode};
 use crate::operation::{Coolant, Operation, Spindle, Stop};
 use crate::post::Post;
 
-/// Ends coolant and spindle before a tool change, where the machine does so or the operator makes it.
-/// The coolant comes on again at the next point.
+/// Ends coolant and spindle before a tool change, where the machine does so or the operator makes it;
+/// before the first one no spindle turns. The coolant comes on again at the next point, however many
+/// changes come before it.
 ///
 /// # Errors
-/// As [`switch_off`].
-pub(super) fn switch_off_for_change(control: &mut Control, by_hand: bool) -> Result<()> {
-    let coolant = control.coolant;
-    if by_hand || control.commons.read(loc::HOME_SWITCHES_OFF) {
-        switch_off(control)?;
+/// The machine has no codes for it.
+pub(super) fn switch_off_for_change(
+    control: &mut Control,
+    by_hand: bool,
+    is_first: bool,
+) -> Result<()> {
+    if !by_hand && !control.commons.read(loc::HOME_SWITCHES_OFF) {
+        return Ok(());
     }
-    if control.coolant.is_none() {
-        control.tools.coolant = coolant;
+    let coolant = control.coolant.or(control.tools.coolant);
+    end_coolant(control)?;
+    control.tools.coolant = coolant;
+    if by_hand || !is_first {
+        end_spindle(control)?;
     }
     Ok(())
 }
@@ -47,13 +54,22 @@ pub(crate) fn resume_coolant(control: &mut Control, at: CodeAt) -> Result<()> {
 /// # Errors
 /// The machine has no codes for it.
 fn switch_off(control: &mut Control) -> Result<()> {
-    if control.coolant.is_some() {
-        control.family().write(control, Operation::Coolant(Coolant::Off))?;
+    end_coolant(control)?;
+    end_spindle(control)
+}
+
+fn end_coolant(control: &mut Control) -> Result<()> {
+    match control.coolant {
+        Some(_) => control.family().write(control, Operation::Coolant(Coolant::Off)),
+        None => Ok(()),
     }
-    if spindle::may_turn(control) {
-        control.family().write(control, Operation::Spindle(Spindle::Off))?;
+}
+
+fn end_spindle(control: &mut Control) -> Result<()> {
+    match spindle::may_turn(control) {
+        true => control.family().write(control, Operation::Spindle(Spindle::Off)),
+        false => Ok(()),
     }
-    Ok(())
 }
 
 /// The stop that the machine makes at a tool change, behind its retract.
