@@ -58,7 +58,7 @@ pub enum Before {
 /// Cutter compensation; a value that does not fit; on a SINUMERIK a cutting edge that is not
 /// known, and would be lost.
 pub fn go(control: &mut Control, motion: &Motion, before: Before, cause: Cause) -> Result<()> {
-    control.require(Act::MachineFrame)?;
+    control.ready_for(Act::MachineFrame)?;
     let present = control.tables.present();
     if motion.axes.and(present).is_empty() {
         return Ok(());

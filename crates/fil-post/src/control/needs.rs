@@ -6,7 +6,7 @@
 
 use fil_diag::Result;
 
-use super::Control;
+use super::{Control, Function};
 use crate::control_state::Compensation;
 use crate::control_state::modal::{self, Know};
 use crate::errors::PostCode;
@@ -287,6 +287,30 @@ impl Control {
     #[inline(always)]
     pub fn require(&self, act: Act) -> Result<()> {
         self.require_within(act, Part::default())
+    }
+
+    /// Makes an operation possible that cutter compensation is in the way of, as far as the CL file
+    /// has ended it and only its code still waits for a motion.
+    ///
+    /// # Errors
+    /// As [`Control::require`].
+    #[inline]
+    pub fn ready_for(&mut self, act: Act) -> Result<()> {
+        self.end_compensation()?;
+        self.require(act)
+    }
+
+    /// Writes the code that ends cutter compensation in a block of its own, where it still waits for
+    /// a motion.
+    ///
+    /// # Errors
+    /// As [`Control::write_block`].
+    #[inline]
+    pub fn end_compensation(&mut self) -> Result<()> {
+        if self.state.compensates() && self.compensation_asked() == Compensation::Off {
+            self.flush_function(Function::Compensation)?;
+        }
+        Ok(())
     }
 
     /// The same, where CYCLE or THREAD of the CL file matter.

@@ -54,7 +54,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<()> {
     let control = &mut post.control;
     control.begin()?;
     control.require_unit()?;
-    control.require(Act::WorkPlaneOn)?;
+    control.ready_for(Act::WorkPlaneOn)?;
     cycle::cancel(control)?;
     control.flush_function(Function::WorkOffset)?;
     let stands = post.path.rotary.unwrap_or_else(|| position::on_tape(post));

@@ -55,7 +55,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     if !post.control.state.is(modal::CYCLE, true) {
         cycle.in_force = None;
     }
-    post.control.require(Act::Hole)?;
+    post.control.ready_for(Act::Hole)?;
     post.control.flush_waiting()?;
     if cycle.kind != CycleKind::Tap && spindle::stands(&post.control) {
         let message = "CYCLE: the spindle is stopped".to_string();

@@ -25,7 +25,7 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
             "ROTABL: under TCPC and in tilted work planes a table turns only with the tool axis of the points",
         );
     }
-    post.control.require(Act::Table)?;
+    post.control.ready_for(Act::Table)?;
     let chain = post.control.tables.chain();
     let stands = post.path.rotary.unwrap_or_else(|| position::on_tape(post));
     let mut angles = stands;

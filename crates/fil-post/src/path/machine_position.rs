@@ -24,7 +24,7 @@ pub fn carry_out(post: &mut Post, to: [Option<f64>; 3]) -> Result<()> {
 /// # Errors
 /// As [`carry_out`].
 pub fn carry_out_before(post: &mut Post, to: [Option<f64>; 3], before: Before) -> Result<()> {
-    post.control.require(Act::MachinePosition)?;
+    post.control.ready_for(Act::MachinePosition)?;
     let was_in_part = post.path.point.is_some();
     post.path.interrupt();
     cycle::cancel(&mut post.control)?;

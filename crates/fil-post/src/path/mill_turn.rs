@@ -45,6 +45,7 @@ pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
         return Ok(());
     }
     thread::end(post)?;
+    post.control.end_compensation()?;
     post.require(Act::Mode)?;
     leave(post)?;
     let control = &mut post.control;

@@ -343,7 +343,7 @@ fn out_and_back(
     plan: &Plan,
     next_axis: Vector3<f64>,
 ) -> Result<()> {
-    post.control.require(Act::Reposition)?;
+    post.control.ready_for(Act::Reposition)?;
     let commons = &post.control.commons;
     if commons.read(loc::REPOS_FEED_WARNING) {
         let (from, to) = (spelled(change.from), spelled(change.to));

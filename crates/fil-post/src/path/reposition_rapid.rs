@@ -83,7 +83,7 @@ fn out_and_to(
     by_macro: bool,
     cause: Cause,
 ) -> Result<()> {
-    post.control.require(Act::Reposition)?;
+    post.control.ready_for(Act::Reposition)?;
     let (from, _) = position::transformed(post, start);
     let (to, next_axis) = position::transformed(post, target);
     let plan = Plan::settle(post, from, change, by_macro)?;

@@ -167,13 +167,13 @@ pub(super) fn refuse_unknown_start(post: &mut Post) -> Result<()> {
 /// # Errors
 /// One turns.
 #[cold]
-pub(super) fn refuse_compensated(post: &Post, before: Option<[f64; 2]>) -> Result<()> {
+pub(super) fn refuse_compensated(post: &mut Post, before: Option<[f64; 2]>) -> Result<()> {
     let tables = &post.control.tables;
     let is_first = before.is_none() && tables.chain().has_rotary();
     if tables.mills() || !is_first && turned(before, post.path.rotary).is_none() {
         return Ok(());
     }
-    post.control.require(Act::RotaryMove)
+    post.control.ready_for(Act::RotaryMove)
 }
 
 /// Warns of a motion that begins where nobody knows the axes to stand, as behind a tool change or

@@ -21,6 +21,7 @@ const SAME_ANGLE: f64 = 0.05;
 #[cold]
 pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
     thread::check_speed(post)?;
+    post.control.end_compensation()?;
     post.require(Act::Thread)?;
     refuse_other_turns(post)?;
     let Some(mut awaited) = post.path.thread.awaited.take() else {

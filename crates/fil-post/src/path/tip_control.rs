@@ -149,7 +149,7 @@ fn begin(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<()> 
     let control = &mut post.control;
     control.begin()?;
     control.require_unit()?;
-    control.require(Act::TcpOn)?;
+    control.ready_for(Act::TcpOn)?;
     cycle::cancel(control)?;
     let in_doubt = control.state.get(modal::TCP).is_none();
     let length_is_called = std::mem::take(&mut control.tip.length_is_called);

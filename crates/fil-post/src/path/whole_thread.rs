@@ -54,6 +54,7 @@ fn cut(post: &mut Post, thread: &Thread, shape: &Shape) -> Result<()> {
 
 /// What must hold while a thread is cut.
 fn check_machine(post: &mut Post) -> Result<()> {
+    post.control.end_compensation()?;
     post.require(Act::Thread)?;
     if post.path.transformation.as_ref().is_some_and(|trans| !trans.is_rigid()) {
         return PostCode::Thread.err("TRANS changes the lengths of the thread");

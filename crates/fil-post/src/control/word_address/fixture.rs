@@ -75,7 +75,7 @@ pub(crate) fn restate(control: &mut Control, offset: WorkOffset) -> Result<()> {
 pub(in crate::control) fn prepare(control: &mut Control) -> Result<()> {
     control.begin()?;
     cycle::cancel(control)?;
-    control.require(Act::WorkOffset)?;
+    control.ready_for(Act::WorkOffset)?;
     control.flush_function(Function::WorkOffset)
 }
 

@@ -195,7 +195,7 @@ fn absolute_code(control: &Control) -> Option<FunctionCode> {
 pub fn plane(control: &mut Control, plane: Plane) -> Result<()> {
     if !control.state.is(modal::PLANE, plane) {
         if control.state.get(modal::PLANE).is_some() {
-            control.require(Act::Plane)?;
+            control.ready_for(Act::Plane)?;
         }
         let code = control.code(plane_code(plane), "this plane")?;
         control.g(code);

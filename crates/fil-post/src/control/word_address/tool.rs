@@ -27,7 +27,7 @@ pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
     super::cycle::cancel(control)?;
     modes::leave_plane_of_its_own(control)?;
     control.flush_waiting()?;
-    control.require(Act::ToolChange)?;
+    control.ready_for(Act::ToolChange)?;
     modes::before_length(control)?;
     let modal = control.commons.read(loc::TOOL_MODAL);
     let offset = control.family().offset_of(wanted);

@@ -118,7 +118,7 @@ pub(super) fn along(post: &mut Post, target: Target) -> Result<()> {
 /// Begins it; the control must be in G1.
 fn begin(post: &mut Post, radius: f64) -> Result<()> {
     let control = &mut post.control;
-    control.require(Act::CylinderOn)?;
+    control.ready_for(Act::CylinderOn)?;
     motion::ready(control)?;
     if control.tables.transforms {
         super::refuse_travel_of_c(control, PostCode::Cylinder)?;
@@ -147,7 +147,7 @@ pub(super) fn end(post: &mut Post) -> Result<()> {
         return Ok(());
     }
     let control = &mut post.control;
-    control.require(Act::CylinderOff)?;
+    control.ready_for(Act::CylinderOff)?;
     let waiting = control.block.take();
     if control.tables.is_unrolled() {
         let knows_z = control.axis_position(2).is_some();

@@ -30,7 +30,7 @@ pub(in crate::path) fn angle(tip: Point3<f64>, last: f64) -> f64 {
 /// A way that passes the axis of the spindle; cutter compensation; no feed; too many motions.
 pub(super) fn feed(post: &mut Post, from: Position, to: Position, target: Target) -> Result<()> {
     post.control.require(Act::MillTurnMotion)?;
-    post.control.require(Act::RotaryMove)?;
+    post.control.ready_for(Act::RotaryMove)?;
     let begin = tip::tip(post.control.tables.chain(), &from);
     let (end, _) = position::transformed(post, target);
     let nearest = polar::nearest(begin.xy(), end.xy());

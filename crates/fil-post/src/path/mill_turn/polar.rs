@@ -87,7 +87,7 @@ pub(super) fn begin(
     kind: MotionKind,
 ) -> Result<()> {
     let control = &mut post.control;
-    control.require(Act::PolarOn)?;
+    control.ready_for(Act::PolarOn)?;
     super::refuse_travel_of_c(control, PostCode::Polar)?;
     control.begin()?;
     control.require_unit()?;
@@ -284,7 +284,7 @@ pub(super) fn end(post: &mut Post) -> Result<()> {
     if !control.tables.is_polar() {
         return Ok(());
     }
-    control.require(Act::PolarOff)?;
+    control.ready_for(Act::PolarOff)?;
     let knows_z = control.axis_position(2).is_some();
     let waiting = control.block.take();
     say_end(control)?;
