@@ -73,5 +73,15 @@ fn build(args: &PostArgs, from: &From) -> Result<Built, Error> {
     let named = setup::for_run(&args.chosen, &args.fil, &args.reading, from)?;
     let builder = named.builder.debug(args.profile.is_some());
     let program = setup::granted(builder, &args.grants).build()?;
-    Ok(Built { program, title: named.title, note: named.note, inputs: named.inputs })
+    let title = named.title + &style(&program);
+    Ok(Built { program, title, note: named.note, inputs: named.inputs })
+}
+
+/// The style of a post, where it has another one than its ready post and nobody has chosen it.
+fn style(program: &Program) -> String {
+    let style = program.options().iter().find(|option| option.name == "style");
+    match style.filter(|style| !style.is_given && style.value != style.default) {
+        Some(style) => format!(", style {}", style.value),
+        None => String::new(),
+    }
 }

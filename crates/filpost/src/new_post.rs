@@ -34,8 +34,11 @@ pub fn files(name: &str, base: &str, folder: &str) -> Result<Vec<NewPostFile>, E
         text.replace("{NAME}", name).replace("{BASE}", base.name).replace("{FOLDER}", folder)
     };
     let machine = fill(MACHINE).replace("\"{TITLE}\"", &toml::Value::from(name).to_string());
-    let settings = Program::builder().machine("machine.toml", &machine.replace("{OPTIONS}", ""));
-    let machine = machine.replace("{OPTIONS}\n", &options(base.name, settings.build()?.options()));
+    let plain = machine.replace("{OPTIONS}", "");
+    let plain = Program::builder().machine("machine.toml", &plain).build()?;
+    let ready = Program::builder().ready(base.name).build()?;
+    let options = options(base.name, ready.options(), plain.options());
+    let machine = machine.replace("{OPTIONS}\n", &options);
     let script = fill(SCRIPT);
     let program =
         Program::builder().machine("machine.toml", &machine).fil("post.fil", &script).build()?;
@@ -58,11 +61,14 @@ fn find(name: &str) -> Result<&'static ReadyPost, Error> {
         .ok_or_else(|| Error::setup(Diag::new(RunCode::NoReadyPost, format!("no post {name}"))))
 }
 
-/// The table of the options of a post: each as a comment, with its value and those that it takes.
-fn options(base: &str, options: &[PostOption]) -> String {
+/// The table of the options of a post: each as a comment, with its value and those that it takes. What
+/// another value would have in a machine with a `base` is no comment: the new post writes the programs
+/// of the ready one.
+fn options(base: &str, options: &[PostOption], of_base: &[PostOption]) -> String {
     if options.is_empty() {
         return String::new();
     }
+    let differs = |name: &str| of_base.iter().any(|one| one.name == name && one.value != one.default);
     let mut text =
         format!("\n# Options of {base}; `filpost posts {base}` lists them too.\n[options]\n");
     for option in options {
@@ -72,7 +78,8 @@ fn options(base: &str, options: &[PostOption]) -> String {
             other => toml::Value::from(other.to_string()).to_string(),
         };
         text += &format!("\n# {}: {}\n", option.help, option.kind.values());
-        text += &format!("# {} = {value}\n", option.name);
+        let mark = if differs(&option.name) { "" } else { "# " };
+        text += &format!("{mark}{} = {value}\n", option.name);
     }
     text
 }
