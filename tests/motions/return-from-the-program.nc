@@ -1,3 +1,3 @@
-; error: E0914 at 2
+; error: E0913 at 3
 M99
 M30

@@ -50,7 +50,7 @@ fil_diag::codes! {
         /// Blocks after the end.
         AfterEnd = 516, Error, "block after the end of the program",
             "The control stops at M2 or M30 and never reads what comes after it.",
-            "Move END or REWIND after the last record that writes a block.";
+            "Move END, REWIND or the block that ends the program (M30, M99) behind the last record that writes a block.";
         /// A character that must not reach the tape.
         TextCharacter = 517, Error, "character not allowed in the program",
             "A percent sign ends the program at the control, and control characters have unpredictable effects.",

@@ -82,10 +82,15 @@ impl State<'_> {
             self.tell_left_to_control(uses);
         }
         if let Outcome::End(code) = outcome {
-            let modes = Modes { cycle: self.cycle.active.is_some(), ..self.modes };
-            self.events.push(Event::End { line: self.line, code: Some(code), modes });
+            self.end(code);
         }
         Ok(outcome)
+    }
+
+    /// The program ends by a code.
+    pub(super) fn end(&mut self, code: u32) {
+        let modes = Modes { cycle: self.cycle.active.is_some(), ..self.modes };
+        self.events.push(Event::End { line: self.line, code: Some(code), modes });
     }
 
     /// End, call and return.

@@ -15,6 +15,9 @@ use crate::motion::Event;
 use crate::source::{Lines, Source};
 use crate::text::{Block, read_block_into};
 
+/// The code that returns from a subprogram.
+const RETURN: u32 = 99;
+
 /// Most calls within calls.
 const MAX_DEPTH: usize = 16;
 
@@ -120,7 +123,12 @@ impl<'a> Program<'a> {
         if !self.order.is_run(read, &self.block).map_err(placed)? {
             return Ok(true);
         }
-        let outcome = self.state.run(&self.block).map_err(|fault| placed(fault.into()))?;
+        let mut outcome = self.state.run(&self.block).map_err(|fault| placed(fault.into()))?;
+        if outcome == Outcome::Back && self.calls.is_empty() {
+            // A main program ends there and begins again.
+            self.state.end(RETURN);
+            outcome = Outcome::End(RETURN);
+        }
         if !self.calls.is_empty() {
             self.called += 1 + self.state.events.len();
             if self.called > MAX_CALLED {
@@ -150,9 +158,7 @@ impl<'a> Program<'a> {
             }
             Outcome::Call { number, times } => self.call(number, times, name)?,
             Outcome::Back => {
-                let Some(mut call) = self.calls.pop() else {
-                    return Err(Fault::new(NcCode::BadCall, "no subprogram is being run").into());
-                };
+                let Some(mut call) = self.calls.pop() else { return Ok(()) };
                 if call.repeats == 0 {
                     (self.lines, self.number) = (call.caller, call.line);
                 } else {

@@ -163,8 +163,11 @@ fn write_start(control: &mut Control) -> Result<()> {
 pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
     finish(control)?;
     user_texts::write(control, user_blocks::END)?;
-    control.family().before_end(control)?;
-    end_code(control, code)?;
+    // The blocks of the machine may end it themselves.
+    if !control.state.is(modal::PROGRAM_END, true) {
+        control.family().before_end(control)?;
+        end_code(control, code)?;
+    }
     close(control)
 }
 

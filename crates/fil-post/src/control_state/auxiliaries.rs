@@ -1,7 +1,7 @@
 //! What the control does by auxiliary functions, whoever writes them: the spindle, the clamp of the
 //! rotary axes, tool changes, calls and the end of the program.
 
-use fil_machine::FunctionCode;
+use fil_machine::{FunctionCode, Letter};
 use fil_machine::functions::{Call, ProgramEnd};
 
 use super::codes::Codes;
@@ -22,17 +22,23 @@ impl ControlState {
         self.set(SPINDLE_HALTED, false);
     }
 
-    /// Learns what an auxiliary function does. A call of a subprogram may do anything.
-    pub fn learn_auxiliary(&mut self, code: FunctionCode, codes: &Codes, source: Source) {
+    /// Learns what an auxiliary function does, in a block with these words. A call of a subprogram may
+    /// do anything.
+    pub fn learn_auxiliary(
+        &mut self,
+        code: FunctionCode,
+        codes: &Codes,
+        source: Source,
+        word: impl Fn(Letter) -> Option<f64>,
+    ) {
         let meanings = codes.auxiliaries(code).map(|row| row.meaning);
         if meanings.clone().next().is_none() {
             return;
         }
         let does = |does| meanings.clone().any(|meaning| meaning == does);
-        // The end of a subprogram behind the main program ends what is written.
-        let is_behind_end = self.groups.written(PROGRAM_END) > 0;
-        let returns = does(Meaning::Call(Call::Return));
-        if does(Meaning::ProgramEnd(ProgramEnd::Program)) || is_behind_end && returns {
+        // The end of a subprogram; in a main program it begins again. With P it goes on elsewhere.
+        let returns = does(Meaning::Call(Call::Return)) && word(Letter::of(b'P')).is_none();
+        if does(Meaning::ProgramEnd(ProgramEnd::Program)) || returns {
             self.set(PROGRAM_END, true);
         }
         if does(Meaning::MasterSpindle) {

@@ -32,7 +32,8 @@ impl ControlState {
             self.learn_code(*code, codes, Source::Post, word);
         }
         for (code, _) in block.m_codes() {
-            self.learn_auxiliary(*code, codes, Source::Post);
+            let word = |letter| block.value(letter, addresses);
+            self.learn_auxiliary(*code, codes, Source::Post, word);
         }
     }
 

@@ -131,7 +131,10 @@ impl ControlState {
                     let word = |letter| word(words, letter);
                     self.learn_code(code, codes, Source::Author, word);
                 }
-                (letters::M, Some(code)) => self.learn_auxiliary(code, codes, Source::Author),
+                (letters::M, Some(code)) => {
+                    let word = |letter| word(words, letter);
+                    self.learn_auxiliary(code, codes, Source::Author, word);
+                }
                 (letters::G | letters::M, None) => self.doubt_all(Source::Author),
                 (letters::T, _) => self.names_tool(*value, codes),
                 (letters::H, _) => self.names_length(*value, ways.length),
@@ -156,7 +159,7 @@ impl ControlState {
         };
         let word = |letter| word(words, letter);
         of(letters::G).for_each(|code| self.learn_code(code, codes, Source::Author, word));
-        of(letters::M).for_each(|code| self.learn_auxiliary(code, codes, Source::Author));
+        of(letters::M).for_each(|code| self.learn_auxiliary(code, codes, Source::Author, word));
         let calls = of(letters::G)
             .any(|code| matches!(codes.meaning(code), Meaning::LengthOffset(_) | Meaning::Tcpc));
         for word in words.iter().filter(|(letter, _)| !matches!(*letter, letters::G | letters::M)) {

@@ -230,7 +230,7 @@ pub fn learn_turning(control: &mut Control, number: f64) {
 pub fn learn_function(control: &mut Control, number: f64) {
     let Some(code) = FunctionCode::of_value(number) else { return };
     learn_turning(control, number);
-    control.state.learn_auxiliary(code, &control.codes, Source::Author);
+    control.state.learn_auxiliary(code, &control.codes, Source::Author, |_| None);
     if code == TOOL_CHANGE {
         control.tool_change_moves();
     }
