@@ -1,3 +1,4 @@
-; error: E0913 at 3
+; expect: end
+; error: E0913 at 4
 M99
 M30

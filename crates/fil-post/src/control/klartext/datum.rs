@@ -1,18 +1,22 @@
 //! Work offsets: cycle 247 takes a row of the table of presets.
 
 use fil_diag::Result;
+use fil_machine::FunctionCode;
 use fil_machine::locations as loc;
 
 use super::line::{self, Line};
 use crate::control::Control;
 use crate::control::word_address::fixture;
-use crate::control_state::{Source, modal};
+use crate::control_state::{Source, WorkOffset, modal};
 use crate::errors::PostCode;
 
 /// The last row of the table of presets that a number can name.
 const LAST: i64 = 9999;
 
-/// Takes a row of the table of presets; no axis stands where it stood before.
+/// The cycle that takes a preset.
+const PRESET: FunctionCode = FunctionCode::whole(247);
+
+/// Takes a row of the table of presets. Where the axes stand in another one is not known.
 ///
 /// # Errors
 /// No number; a row that the table can't have; cutter compensation.
@@ -29,7 +33,10 @@ pub fn write(control: &mut Control, number: Option<i64>) -> Result<()> {
     let cause = control.block.cause;
     line::put(control, &Line::of_text("CYCL DEF 247 DATUM SETTING ~", cause))?;
     line::put_more(control, &format!("  Q339=+{row} ;DATUM NUMBER"), cause)?;
-    control.state.shift_axes(Source::Post);
+    let offset = WorkOffset { code: PRESET, number: i32::try_from(row).ok() };
+    fixture::counts_anew(control, control.state.get(modal::WORK_OFFSET) == Some(offset));
+    control.state.set(modal::WORK_OFFSET, offset);
+    control.state.set(modal::ASKED_OFFSET, offset);
     // Which hole the next M99 would drill is not counted on.
     control.state.forget(modal::CYCLE_CODE, Source::Post);
     Ok(())

@@ -73,7 +73,7 @@ pub fn read(text: &str) -> ForeignBlock {
         ["CYCL", "DEF", number, ..] if !frames(number) => block.effects.push(forgets_cycle),
         ["CYCL", "DEF", number, ..] => {
             let moved = if shifts(number) { Effect::ShiftAxes } else { Effect::LoseAxes };
-            block.effects.extend([forgets_cycle, moved]);
+            block.effects.extend([forgets_cycle, moved, Effect::Forget(modal::WORK_OFFSET.group)]);
         }
         ["CYCL", "CALL", ..] => block.effects.push(Effect::LoseAxes),
         // A parameter gets a value, and no mode and no axis is touched.

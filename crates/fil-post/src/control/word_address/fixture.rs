@@ -100,7 +100,7 @@ fn place(control: &mut Control) -> Result<()> {
 }
 
 /// The axes count from the zero of the offset, which is the one before it if that stays.
-fn counts_anew(control: &mut Control, stays: bool) {
+pub(in crate::control) fn counts_anew(control: &mut Control, stays: bool) {
     if stays { control.state.doubt_axes() } else { control.state.shift_axes(Source::Post) }
 }
 
