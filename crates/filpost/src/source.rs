@@ -146,6 +146,12 @@ impl<'r> Source<'r> {
         reader.told_unit().map(units::of_word)
     }
 
+    /// The unit that UNITS gives behind nothing but names and texts; to be asked before it is read.
+    pub fn unit_ahead(&mut self) -> Option<Unit> {
+        let Stream::Cl(reader) = &mut self.reader else { return None };
+        reader.unit_ahead().map(units::of_word)
+    }
+
     /// The splines that were read as lines so far.
     pub fn splines(&self) -> SplineCounts {
         self.reader.text().map(Reader::splines).unwrap_or_default()

@@ -1,4 +1,5 @@
-//! The unit of a file without UNITS, where its system names it with each feed.
+//! The unit of a file before its UNITS is read, and that of a file without UNITS, where its system
+//! names it with each feed.
 //!
 //! A system that writes MMPM for parts in mm and IPM for parts in inches says the unit of the
 //! points, too. It is taken only where the size of the tools and of the path goes with it.
@@ -44,6 +45,36 @@ impl Reader<'_> {
         let mut told = Told::default();
         self.ahead().split(|byte| *byte == b'\n').for_each(|line| told.look(line));
         told.unit()
+    }
+}
+
+impl Reader<'_> {
+    /// The unit that UNITS gives behind nothing but names and texts, MM or INCHES; to be asked before
+    /// the first record. What those statements make of themselves may need it.
+    pub fn unit_ahead(&mut self) -> Option<WordId> {
+        self.begin().ok()?;
+        for line in self.ahead().split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii) {
+            let end = line.iter().position(|byte| !byte.is_ascii_alphanumeric());
+            let (major, rest) = line.split_at(end.unwrap_or(line.len()));
+            match &major.to_ascii_uppercase()[..] {
+                b"UNITS" | b"UNIT" => return unit(rest),
+                b"" | b"MACHIN" | b"PARTNO" | b"PPRINT" | b"REMARK" | b"INSERT" | b"LETTER"
+                | b"TITLES" | b"TPRINT" | b"LEADER" | b"PPWORD" => {}
+                _ => return None,
+            }
+        }
+        None
+    }
+}
+
+/// The unit behind UNITS.
+fn unit(rest: &[u8]) -> Option<WordId> {
+    let name = rest.trim_ascii().strip_prefix(b"/")?.trim_ascii();
+    let is = |unit: &[u8]| name.eq_ignore_ascii_case(unit);
+    match () {
+        () if is(b"MM") => Some(words::MM),
+        () if is(b"INCHES") => Some(words::INCHES),
+        () => None,
     }
 }
 

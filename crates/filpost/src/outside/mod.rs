@@ -167,7 +167,8 @@ impl<'o, 'r> Outside<'o, 'r> {
     pub fn begin(&mut self) -> Result<(), Box<Diag>> {
         let told = self.source.told_unit();
         self.report.unit = units::known_before(self.units, told, &self.post.control.commons)?;
-        if let Some((unit, _)) = self.report.unit {
+        let known = self.report.unit.map(|(unit, _)| unit);
+        if let Some(unit) = known.or_else(|| self.source.unit_ahead()) {
             self.post.assume_unit(unit);
         }
         if self.post.control.commons.read(PROGRAM_TIME_STAMP) {
