@@ -96,9 +96,10 @@ impl Post {
     }
 
     /// True when a tool change depends on those behind it: whoever drives the post tells
-    /// them by `path.ahead.tools` before a record that changes the tool.
+    /// them by `path.ahead.tool` before a record that changes the tool.
     pub fn looks_ahead_for_tools(&self) -> bool {
-        tool_change::looks_ahead(&self.control.commons)
+        let tables = &self.control.tables;
+        tool_change::looks_ahead(&self.control.commons) || tables.tip_output && tables.frame_output
     }
 }
 

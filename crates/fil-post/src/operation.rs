@@ -296,6 +296,19 @@ pub enum NextTools {
     },
 }
 
+/// What comes behind a tool change, as far as somebody has looked.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ToolAhead {
+    /// The tool changes behind it.
+    pub next: NextTools,
+    /// The rev/min of the first SPINDL behind it, where no motion comes before it.
+    pub speed: Option<f64>,
+    /// The tool axis changes in a motion at feed.
+    pub turns_in_cut: bool,
+    /// Taps or cutter compensation, which need a tilted work plane where the tool is tilted.
+    pub needs_a_plane: bool,
+}
+
 /// A tool change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToolChange {

@@ -152,13 +152,22 @@ impl Post {
         self.path.sense.choice == Choice::WouldSettle
     }
 
-    /// Motions are output under TCPC: those under MULTAX/ON, and on a machine without tilted work
-    /// planes all that the machine turns for.
+    /// Motions are output under TCPC: on a machine without tilted work planes all that the machine
+    /// turns for; else those under MULTAX/ON, and in a file without MULTAX those of a tool whose axis
+    /// changes in a cut. A tool that cuts along one axis at a time and does what TCPC has not goes
+    /// into the planes.
     #[inline]
     pub(crate) fn writes_tip(&self) -> bool {
         let tables = &self.control.tables;
-        let others = !tables.frame_output && !self.path.is_upright;
-        tables.tip_output && (others || self.path.multax == Some(true))
+        if !tables.tip_output {
+            return false;
+        }
+        let tool = &self.path.ahead.tool;
+        match self.path.multax {
+            Some(true) if tables.frame_output => tool.turns_in_cut || !tool.needs_a_plane,
+            None if tables.frame_output => tool.turns_in_cut,
+            multax => multax == Some(true) || !tables.frame_output && !self.path.is_upright,
+        }
     }
 
     /// The last CL point, in CL units.

@@ -62,6 +62,7 @@
 
 mod allow;
 pub mod audit;
+mod behind_tool;
 mod blocks;
 mod builder;
 mod cancel;

@@ -68,7 +68,8 @@ fn options(base: &str, options: &[PostOption], of_base: &[PostOption]) -> String
     if options.is_empty() {
         return String::new();
     }
-    let differs = |name: &str| of_base.iter().any(|one| one.name == name && one.value != one.default);
+    let differs =
+        |name: &str| of_base.iter().any(|one| one.name == name && one.value != one.default);
     let mut text =
         format!("\n# Options of {base}; `filpost posts {base}` lists them too.\n[options]\n");
     for option in options {

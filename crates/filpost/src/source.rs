@@ -4,12 +4,13 @@
 use std::collections::VecDeque;
 
 use fil_cl::{
-    Recognized, Record, SplineCounts, Vocabulary, Word, WordId, reader::Reader, record::kind, words,
+    Recognized, Record, SplineCounts, Vocabulary, WordId, reader::Reader, record::kind, words,
 };
 use fil_diag::Result;
 use fil_machine::Unit;
-use fil_post::operation::NextTools;
+use fil_post::operation::ToolAhead;
 
+use crate::behind_tool::BehindTool;
 use crate::coordinates::{Coordinates, coordinates};
 use crate::memory::Memory;
 use crate::units;
@@ -278,67 +279,63 @@ impl<'r> Source<'r> {
         self.tool.corner
     }
 
-    /// The tool changes behind the current record, which takes a tool, and the rev/min that the next
-    /// SPINDL asks for before a motion; nothing is consumed.
+    /// What comes behind the current record, which takes a tool; nothing is consumed.
     /// Records that can't go back are kept, up to [`TOOLS_AHEAD`] of them. What is wrong with
     /// a record is said when it is read.
     ///
     /// # Errors
     /// A file that can't be gone back in after all.
-    pub fn next_tools(
+    pub fn behind_tool(
         &mut self,
         record: &Record,
         vocabulary: &mut Vocabulary,
-    ) -> Result<(NextTools, Option<f64>)> {
-        let mut seen = ToolsSeen { tool: tool_of(record), any: false, speed: SpeedSeen::Open };
-        let mut at = 0;
-        while let Some(ahead) = self.ahead.get(at) {
-            if let Some(found) = seen.take(ahead) {
-                return Ok((found, seen.speed.known()));
-            }
-            at += 1;
+    ) -> Result<ToolAhead> {
+        let mut seen = BehindTool::of(record);
+        if self.ahead.iter().any(|record| seen.take(record)) {
+            return Ok(seen.found());
         }
         if self.reader.text().is_some_and(Reader::can_go_back) {
-            return self.read_on_for_tools(seen, vocabulary);
+            return self.read_on_behind_tool(seen, vocabulary);
         }
-        while at < TOOLS_AHEAD {
+        for at in self.ahead.len()..TOOLS_AHEAD {
             match self.ahead(at, vocabulary) {
-                Ok(None) => return Ok((seen.at_the_end(), seen.speed.known())),
-                Ok(Some(ahead)) => {
-                    if let Some(found) = seen.take(ahead) {
-                        return Ok((found, seen.speed.known()));
-                    }
+                Ok(None) => {
+                    seen.end();
+                    break;
                 }
-                Err(_) => break,
+                Ok(Some(record)) if !seen.take(record) => {}
+                Ok(Some(_)) | Err(_) => break,
             }
-            at += 1;
         }
-        Ok((NextTools::Unknown, seen.speed.known()))
+        Ok(seen.found())
     }
 
     /// Reads on and goes back.
-    fn read_on_for_tools(
+    fn read_on_behind_tool(
         &mut self,
-        mut seen: ToolsSeen,
+        mut seen: BehindTool,
         vocabulary: &mut Vocabulary,
-    ) -> Result<(NextTools, Option<f64>)> {
+    ) -> Result<ToolAhead> {
         let mut record = Record::default();
         let mut first = None;
-        let found = loop {
+        loop {
             match self.reader.read(vocabulary, &mut record) {
                 Ok(true) => {}
-                Ok(false) => break seen.at_the_end(),
-                Err(_) => break NextTools::Unknown,
+                Ok(false) => {
+                    seen.end();
+                    break;
+                }
+                Err(_) => break,
             }
             first.get_or_insert(record.number);
-            if let Some(found) = seen.take(&record) {
-                break found;
+            if seen.take(&record) {
+                break;
             }
-        };
+        }
         if let Some(first) = first {
             self.reader.seek(first)?;
         }
-        Ok((found, seen.speed.known()))
+        Ok(seen.found())
     }
 
     /// The motion before the current record.
@@ -368,83 +365,6 @@ impl<'r> Source<'r> {
         self.last_read = self.last_read.max(record.number);
         self.rapid |= record.major == words::RAPID;
     }
-}
-
-/// What was seen of the tool changes ahead.
-struct ToolsSeen {
-    /// The tool of the change at hand.
-    tool: Option<i64>,
-    /// Some change was seen.
-    any: bool,
-    /// The speed of the spindle behind the change.
-    speed: SpeedSeen,
-}
-
-/// What was seen of the speed of the spindle.
-#[derive(Clone, Copy)]
-enum SpeedSeen {
-    /// Nothing yet.
-    Open,
-    /// SPINDL with a speed, rev/min.
-    Known(f64),
-    /// Another SPINDL, or a motion, came first.
-    Closed,
-}
-
-impl SpeedSeen {
-    fn take(self, record: &Record) -> SpeedSeen {
-        match self {
-            SpeedSeen::Open if record.kind == kind::MOTION => SpeedSeen::Closed,
-            SpeedSeen::Open if record.major == words::SPINDL => {
-                record.number_after(words::RPM).map_or(SpeedSeen::Closed, SpeedSeen::Known)
-            }
-            seen => seen,
-        }
-    }
-
-    fn known(self) -> Option<f64> {
-        match self {
-            SpeedSeen::Known(speed) => Some(speed),
-            SpeedSeen::Open | SpeedSeen::Closed => None,
-        }
-    }
-}
-
-impl ToolsSeen {
-    /// Looks at a record; gives what is known when nothing more needs to be.
-    fn take(&mut self, record: &Record) -> Option<NextTools> {
-        if record.kind == kind::FINI {
-            return Some(self.at_the_end());
-        }
-        self.speed = self.speed.take(record);
-        if !record.takes_tool() {
-            return None;
-        }
-        self.any = true;
-        let tool = tool_of(record);
-        let by_hand = record.has(words::MANUAL);
-        (tool != self.tool).then_some(NextTools::Some { other: tool, by_hand })
-    }
-
-    fn at_the_end(&self) -> NextTools {
-        match self.any {
-            true => NextTools::Some { other: None, by_hand: false },
-            false => NextTools::None,
-        }
-    }
-}
-
-/// The tool that a record takes: its first number that is no length and no offset.
-fn tool_of(record: &Record) -> Option<i64> {
-    const COUPLETS: [WordId; 3] = [words::LENGTH, words::OSETNO, words::ADJUST];
-    let of_couplet = |at: usize| {
-        let before = at.checked_sub(1).and_then(|at| record.data.get(at));
-        COUPLETS.iter().any(|word| before == Some(&Word::Minor(*word)))
-    };
-    record.data.iter().enumerate().find_map(|(at, item)| match item {
-        Word::Number(number) if number.fract() == 0.0 && !of_couplet(at) => Some(*number as i64),
-        _ => None,
-    })
 }
 
 /// What the CL file has said of the tool in use.

@@ -1,8 +1,8 @@
 //! What the control does by auxiliary functions, whoever writes them: the spindle, the clamp of the
 //! rotary axes, tool changes, calls and the end of the program.
 
-use fil_machine::{FunctionCode, Letter};
 use fil_machine::functions::{Call, ProgramEnd};
+use fil_machine::{FunctionCode, Letter};
 
 use super::codes::Codes;
 use super::modal::{

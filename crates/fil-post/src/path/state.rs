@@ -9,7 +9,7 @@ use super::{Coming, NamedFrames, Statement, Transformation, sense};
 use crate::cause::Cause;
 use crate::control_state::WorkOffset;
 use crate::operation::cycle::{AboveHoles, Cycle};
-use crate::operation::{Arc, Feed, Lead, NextTools, Operation, SpindleSpeed, Target, Thread};
+use crate::operation::{Arc, Feed, Lead, Operation, SpindleSpeed, Target, Thread, ToolAhead};
 use fil_machine::axes::Position;
 
 /// Where the CL file stands: point and axis, and what its records asked for.
@@ -177,10 +177,8 @@ pub(crate) struct Cutter {
 /// What comes, where whoever drives the post has looked.
 #[derive(Clone, Debug, Default)]
 pub struct LookAhead {
-    /// The tool changes behind the next one.
-    pub tools: NextTools,
-    /// The rev/min of the first SPINDL behind the next tool change, where no motion comes before it.
-    pub speed: Option<f64>,
+    /// What comes behind the last tool change.
+    pub tool: ToolAhead,
     /// The motions behind a RAPID.
     pub motions: Vec<Coming>,
 }

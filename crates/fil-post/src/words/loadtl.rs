@@ -57,8 +57,8 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     cutter::forget(post);
     tool_names::load(&mut post.control, tool)?;
     let causes = [cause, offset_cause];
-    let next = std::mem::take(&mut post.path.ahead.tools);
-    let speed = post.path.ahead.speed.take();
+    let next = std::mem::take(&mut post.path.ahead.tool.next);
+    let speed = post.path.ahead.tool.speed.take();
     let change = ToolChange { tool, offset, offset_from, by_hand, next, speed, causes };
     carry_out(post, Operation::ToolChange(change))
 }

@@ -275,8 +275,7 @@ impl<'o, 'r> Outside<'o, 'r> {
         vocabulary: &mut Vocabulary,
     ) -> Result<(), Box<Diag>> {
         if self.post.looks_ahead_for_tools() {
-            let ahead = &mut self.post.path.ahead;
-            (ahead.tools, ahead.speed) = self.source.next_tools(record, vocabulary)?;
+            self.post.path.ahead.tool = self.source.behind_tool(record, vocabulary)?;
         }
         Ok(())
     }
