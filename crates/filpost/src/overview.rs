@@ -62,7 +62,8 @@ struct ToolEntry {
     length: Option<f64>,
     name: Option<String>,
     totals: Totals,
-    /// Its lowest Z is not that of its points: it cuts whole threads, or a matrix moves them.
+    /// Its lowest Z may not be that of its points: it cuts whole threads, a script writes axis words
+    /// for it, or a matrix moves the points.
     other_z: bool,
 }
 
@@ -162,9 +163,11 @@ impl Overview {
         if record.takes_tool() {
             self.change_tool(record, cl_record);
         }
-        let is_thread = matches!(record.major, words::THREAD | words::OP);
+        // Whole threads; axis words of a script, as the blocks of a cycle of its own.
+        let cuts_beside =
+            matches!(record.major, words::THREAD | words::OP | words::POSTN | words::REPEAT);
         let has_other_z = match counted.motion {
-            None => is_thread,
+            None => cuts_beside,
             Some(_) => counted.is_moved,
         };
         if let Some(tool) = self.tool.filter(|_| has_other_z) {

@@ -10,6 +10,9 @@ use super::verifier::Verifier;
 use crate::dialect::Auxiliary;
 use crate::motion::{Event, Spindle};
 
+/// Seconds that are no difference.
+const DUST: f64 = 1e-6;
+
 impl<C: Steps> Verifier<'_, C> {
     /// A dwell in seconds, or in turns of the spindle.
     pub(super) fn dwell(&mut self, cl_line: u32, wanted: Option<f64>, turning: Option<f64>) {
@@ -21,7 +24,11 @@ impl<C: Steps> Verifier<'_, C> {
         let wanted = wanted.map(|wanted| self.settings.dwell_within(wanted));
         // How many seconds turns take at a speed that nobody knows is left open.
         let is_open = turning.is_some() && wanted.is_none() && self.settings.waits_seconds();
-        if !is_open {
+        let is_longer = |(found, wanted): (f64, f64)| {
+            (0.0..=self.slack.of(Quantity::SecondsOfTurns)).contains(&(found - wanted + DUST))
+        };
+        let waits_turns = turning.is_some() && seconds.zip(wanted).is_some_and(is_longer);
+        if !is_open && !waits_turns {
             self.check_dwell(cl_line, line, seconds, wanted);
         }
         if let (Some(found), Some(wanted)) = (turns, turning) {

@@ -94,11 +94,13 @@ pub enum Quantity {
     Dwell,
     /// Dwell, turns of the spindle.
     DwellTurns,
+    /// Most by which seconds are longer than the turns that they stand for, seconds.
+    SecondsOfTurns,
 }
 
 impl Quantity {
     /// All of them, in their order.
-    const ALL: [Quantity; 10] = [
+    const ALL: [Quantity; 11] = [
         Quantity::Radius,
         Quantity::Cycle,
         Quantity::Feed,
@@ -109,6 +111,7 @@ impl Quantity {
         Quantity::SurfaceSpeed,
         Quantity::Dwell,
         Quantity::DwellTurns,
+        Quantity::SecondsOfTurns,
     ];
 }
 
@@ -317,6 +320,10 @@ impl<'c> Settings<'c> {
             Quantity::DwellTurns => {
                 self.dwell_slack(half, loc::DWELL_UPR_FORMAT, loc::DWELL_UPR_FACTOR)
             }
+            // They are rounded up, so that so many turns or more are waited for.
+            Quantity::SecondsOfTurns => {
+                2.0 * self.dwell_slack(half, loc::DWELL_UPR_FORMAT, loc::DWELL_UPM_FACTOR)
+            }
         };
         Tolerances {
             linear,
@@ -372,6 +379,10 @@ impl<'c> Settings<'c> {
         let factor = self.commons.dbl_opt(factor).filter(|factor| *factor > 0.0);
         let letter = self.commons.read(loc::DWELL_ADDRESS).unwrap_or(Letter::of(b'P'));
         let own = self.commons.int_opt(format).filter(|digits| *digits > 0);
+        // F has the digits of feeds.
+        let of_feeds =
+            || self.commons.int_opt(loc::FEED_UPM_FORMAT).filter(|_| letter == letters::F);
+        let own = own.or_else(of_feeds);
         let coarse = own.map_or(0.0, |digits| {
             // The last digit of each half of the format says its decimals; the fewer count.
             let decimals = (digits / 100 % 10).min(digits % 10);

@@ -39,11 +39,23 @@ pub fn write(control: &mut Control, dwell: Dwell) -> Result<()> {
     };
     let usual = take_format(control, letter, at);
     control.g_of_record(code);
+    let value = match dwell {
+        Dwell::Revolutions(_) if !dwells_in_turns(control) => rounded_up(control, letter, value),
+        _ => value,
+    };
     control.word(letter, value)?;
     control.write_block()?;
     restore_format(control, usual);
     control.state.doubt(letter);
     Ok(())
+}
+
+/// Seconds in whole last digits of their address, not less: so many turns, or more, are waited for.
+fn rounded_up(control: &Control, letter: Letter, value: f64) -> f64 {
+    const EXACT: f64 = 1e-6;
+    let Some(format) = control.tables.addresses.format(letter) else { return value };
+    let digit = format.unscale(1);
+    (value / digit - EXACT).ceil() * digit
 }
 
 /// Writes the words of a letter with the digits of a setting until [`restore_format`];
