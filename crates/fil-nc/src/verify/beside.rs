@@ -2,13 +2,12 @@
 
 use super::ahead::Steps;
 use super::expected_step::{CoolantKind, Effect, End, ExpectedStep, Step};
-use super::hole::APPROACH;
 use super::report::{FindingKind, Unverified};
 use super::say::short;
 use super::settings::Quantity;
 use super::verifier::Verifier;
 use crate::dialect::Auxiliary;
-use crate::motion::{Event, Spindle};
+use crate::motion::{Event, Move, Spindle};
 
 /// Seconds that are no difference.
 const DUST: f64 = 1e-6;
@@ -137,22 +136,13 @@ impl<C: Steps> Verifier<'_, C> {
         self.auxiliaries.allow(code, [self.last_line(), next]);
     }
 
-    /// A live tool is brought in step before each tap, as the end of the cycle ends that too.
-    pub(super) fn ask_rigid(&mut self, cl_line: u32, tap: u32) {
-        if let Some(code) = self.settings.rigid_tap_mode() {
-            self.auxiliaries.ask(code, cl_line, [self.last_line(), tap]);
-        }
-    }
-
-    /// The mode of rigid taps comes before the next cycle, maybe behind the ways over its hole.
-    pub(super) fn ask_rigid_ahead(&mut self, cl_line: u32) {
-        let mut ahead = self.nc.from(self.next).take(APPROACH);
-        let cycle = ahead.find(|event| matches!(event, Event::Move(found) if found.in_cycle));
-        let cycle = cycle.map(|event| event.line());
-        drop(ahead);
-        match cycle {
-            Some(tap) => self.ask_rigid(cl_line, tap),
-            None => self.ask_auxiliary(cl_line, self.settings.rigid_tap_mode()),
+    /// The mode of rigid taps comes before each cycle that the control begins, maybe behind the ways
+    /// over its hole. The end of a cycle ends the mode too, as each tap of a live tool does.
+    pub(super) fn ask_rigid(&mut self, cl_line: u32, tap: &Move) {
+        let is_live = self.settings.is_mill_turn() && self.expected.mills();
+        let goes_on = self.moved.in_cycle && self.ways_over_hole(self.next).all(|way| way.in_cycle);
+        if let Some(code) = self.settings.rigid_tap_mode().filter(|_| is_live || !goes_on) {
+            self.auxiliaries.ask(code, cl_line, [self.last_line(), tap.line]);
         }
     }
 

@@ -130,8 +130,6 @@ pub enum ExpectedStep {
     },
     /// The operator's feed override is locked, or acts again.
     OverrideLock(bool),
-    /// The holes that follow are tapped in step with the spindle.
-    RigidTap,
     /// The clamp of an axis, on or off.
     Clamp(bool),
     /// An auxiliary function by its number.
@@ -363,7 +361,6 @@ impl ExpectedStep {
                     | ExpectedStep::SideSpindle(_)
                     | ExpectedStep::Stop { .. }
                     | ExpectedStep::OverrideLock(_)
-                    | ExpectedStep::RigidTap
                     | ExpectedStep::Clamp(_)
                     | ExpectedStep::Auxiliary(_)
                     | ExpectedStep::Insert { .. }

@@ -13,7 +13,7 @@ use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Spindle};
 
 /// Most motions over a hole before it is drilled.
-pub(super) const APPROACH: usize = 7;
+const APPROACH: usize = 7;
 
 /// Most motions from the end of a peck to that of the next one: out, back, and deeper.
 const PECK_PARTS: usize = 3;
@@ -108,8 +108,8 @@ impl<C: Steps> Verifier<'_, C> {
         plunge: &Move,
     ) -> Option<f64> {
         let first = self.next;
-        if hole.rigid && self.settings.is_mill_turn() && self.expected.mills() {
-            self.ask_rigid(cl_line, plunge.line);
+        if hole.rigid {
+            self.ask_rigid(cl_line, plunge);
         }
         match self.drill(cl_line, hole, levels, plunge.modes.spindle.turn) {
             Ok(rest) => Some(rest),
@@ -123,11 +123,19 @@ impl<C: Steps> Verifier<'_, C> {
 
     /// The first motion at feed from `index` on, after motions over the hole.
     pub(super) fn plunge(&self, index: usize) -> Option<Move> {
-        let mut motions = self.nc.from(index).take(APPROACH).map_while(|event| match event {
+        self.over_hole(index).find(|found| found.course != Course::Rapid)
+    }
+
+    /// The motions over a hole from `index` on, before its plunge.
+    pub(super) fn ways_over_hole(&self, index: usize) -> impl Iterator<Item = Move> + '_ {
+        self.over_hole(index).take_while(|found| found.course == Course::Rapid)
+    }
+
+    fn over_hole(&self, index: usize) -> impl Iterator<Item = Move> + '_ {
+        self.nc.from(index).take(APPROACH).map_while(|event| match event {
             Event::Move(found) if found.course != Course::Machine => Some(found),
             _ => None,
-        });
-        motions.find(|found| found.course != Course::Rapid)
+        })
     }
 
     /// The events from `index` on drill at the place of a hole.

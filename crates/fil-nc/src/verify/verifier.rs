@@ -202,7 +202,10 @@ impl<'a, C: Steps> Verifier<'a, C> {
                 self.ask_spindle_mode(step.line, *mills);
             }
             ExpectedStep::Mills(mills) => self.scale_x(if *mills { 1.0 } else { DIAMETER }),
-            ExpectedStep::CycleEnd => self.end_cycle(step.line),
+            ExpectedStep::CycleEnd => {
+                self.end_cycle(step.line);
+                self.moved.in_cycle = false;
+            }
             ExpectedStep::ThreadBegins => self.memory.thread_turns = None,
             ExpectedStep::Straight(within) => self.watch.ask(*within),
             ExpectedStep::LeftOut => self.watch.begin_elsewhere(self.settings.divides_within()),
@@ -256,8 +259,6 @@ impl<'a, C: Steps> Verifier<'a, C> {
             ExpectedStep::OverrideLock(on) => {
                 self.ask_auxiliary(step.line, self.settings.override_lock(*on))
             }
-            ExpectedStep::RigidTap if self.settings.is_mill_turn() && self.expected.mills() => {}
-            ExpectedStep::RigidTap => self.ask_rigid_ahead(step.line),
             ExpectedStep::Clamp(on) => self.ask_auxiliary(step.line, self.settings.clamp_code(*on)),
             ExpectedStep::Auxiliary(code) => self.auxiliary(step.line, *code),
             ExpectedStep::Unfollowed => self.expected.unfollowed = true,
@@ -425,7 +426,13 @@ impl<'a, C: Steps> Verifier<'a, C> {
         self.at = found.to;
         let plane = self.moved.plane;
         let tip = found.to.tip_control;
-        self.moved = LastMotion { line: found.line, modes: found.modes, tip, plane };
+        self.moved = LastMotion {
+            line: found.line,
+            in_cycle: found.in_cycle,
+            modes: found.modes,
+            tip,
+            plane,
+        };
         self.known = found.known;
         self.facts.add_if(Fact::HadHeight, found.known[2]);
     }

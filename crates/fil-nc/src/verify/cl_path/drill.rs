@@ -118,7 +118,7 @@ impl State {
             rigid,
         });
         let begins = begins.then_some(ExpectedStep::CycleEnd);
-        Some(begins.into_iter().chain(rigid.then_some(ExpectedStep::RigidTap)).collect())
+        Some(begins.into_iter().collect())
     }
 }
 

@@ -66,6 +66,8 @@ impl Facts {
 pub(in super::super) struct LastMotion {
     /// Its line in the program.
     pub(in super::super) line: u32,
+    /// A cycle of the control made it, and no record has ended that since.
+    pub(in super::super) in_cycle: bool,
     pub(in super::super) modes: Modes,
     /// It was one under tool center point control.
     pub(super) tip: bool,
