@@ -256,8 +256,13 @@ impl<C: Steps> Verifier<'_, C> {
 
     /// The way up before a rapid to a pose that turns the machine, of a tool that has come to the part.
     pub(super) fn go_up_for_turns(&mut self, cl_line: u32, pose: &Pose) {
+        if !self.settings.turns_at_top() {
+            return;
+        }
+        // A text may have turned the machine to that pose, or brought the tool away.
+        self.pass_own();
         let is_in_part = !self.facts.has(Fact::FreshTool) && !self.facts.has(Fact::Away);
-        if !self.settings.turns_at_top() || !is_in_part || self.at.names_tip() {
+        if !is_in_part || self.at.names_tip() {
             return;
         }
         let here = self.settings.forward.pose(&self.at);
