@@ -122,7 +122,11 @@ impl<C: Steps> Verifier<'_, C> {
         );
         let Some(cl_line) = self.memory.held_stop.take_if(|_| !waits) else { return };
         let stops_there = match next {
-            ExpectedStep::Tool { by_hand, .. } => *by_hand || self.blocks.changes > 0,
+            ExpectedStep::Tool { number, offset, by_hand } => {
+                let offset = self.settings.tool_offset(*number, *offset);
+                let changes = *by_hand || self.blocks.changes > 0;
+                changes && !self.keeps_tool(*number, offset)
+            }
             _ => false,
         };
         if !stops_there {

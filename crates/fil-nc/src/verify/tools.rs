@@ -8,7 +8,8 @@ use super::verifier::{Fact, LOOK_AHEAD, Verifier};
 use crate::motion::{Course, Event, Position};
 
 impl<C: Steps> Verifier<'_, C> {
-    pub(super) fn tool(&mut self, cl_line: u32, number: u32, offset: u32, by_hand: bool) {
+    /// A change to a tool. False where it is in the spindle already, and stays.
+    pub(super) fn tool(&mut self, cl_line: u32, number: u32, offset: u32, by_hand: bool) -> bool {
         self.memory.initial = None;
         // A text may have changed the tool.
         match self.settings.names_machine_positions() {
@@ -19,10 +20,12 @@ impl<C: Steps> Verifier<'_, C> {
                 self.pass(cl_line);
             }
         }
-        // A program may leave out the change to the tool that is in the spindle already.
-        let same = self.expected.tool() == Some(number)
-            && self.expected.loaded_offset() == Some(offset)
-            && (self.settings.tool_is_modal() || self.next_tool() != Some(number));
+        let same = self.keeps_tool(number, offset);
+        self.change(cl_line, (number, offset), by_hand, same);
+        !same
+    }
+
+    fn change(&mut self, cl_line: u32, (number, offset): (u32, u32), by_hand: bool, same: bool) {
         let is_called = match by_hand {
             true => self.settings.calls_lengths_by_tool(),
             false => self.settings.calls_tools(),
@@ -102,6 +105,13 @@ impl<C: Steps> Verifier<'_, C> {
         }
         self.go_to_offset_level(cl_line);
         self.take_blocks_after_change();
+    }
+
+    /// The tool is in the spindle already, and the program leaves its change out.
+    pub(super) fn keeps_tool(&self, number: u32, offset: u32) -> bool {
+        self.expected.tool() == Some(number)
+            && self.expected.loaded_offset() == Some(offset)
+            && (self.settings.tool_is_modal() || self.next_tool() != Some(number))
     }
 
     /// Before the operator changes a tool: coolant and spindle off, the way to the change position, and

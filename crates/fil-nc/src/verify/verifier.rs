@@ -212,10 +212,12 @@ impl<'a, C: Steps> Verifier<'a, C> {
             ExpectedStep::Tool { number, offset, by_hand } => {
                 self.facts.set(Fact::FreshHeight, self.settings.restates_after_change());
                 let offset = self.settings.tool_offset(*number, *offset);
-                self.tool(step.line, *number, offset, *by_hand);
+                let changes = self.tool(step.line, *number, offset, *by_hand);
                 self.cutter = self.cutter.filter(|_| self.facts.has(Fact::FreshCutter));
-                self.facts.set(Fact::FreshTool, true);
-                self.memory.machine_at = [None; 5];
+                if changes {
+                    self.facts.set(Fact::FreshTool, true);
+                    self.memory.machine_at = [None; 5];
+                }
             }
             ExpectedStep::ToolLeftOut { number, offset } => {
                 let offset = self.settings.tool_offset(*number, *offset);
