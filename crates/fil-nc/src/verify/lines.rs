@@ -25,6 +25,7 @@ impl<C: Steps> Verifier<'_, C> {
     /// A rapid in one block or in parts.
     pub(super) fn rapid(&mut self, cl_line: u32, pose: &Pose) -> bool {
         if self.stands_at(pose) && !self.goes_a_digit_to(pose) {
+            self.lead_in(self.at.linear[0]);
             return true;
         }
         if let Some(feed) = self.feed_of_short_rapid(pose) {
@@ -33,9 +34,7 @@ impl<C: Steps> Verifier<'_, C> {
         let Some(count) = self.rapid_parts(self.next, pose) else { return false };
         let last = self.next + count - 1;
         let Some(Event::Move(end)) = self.nc.get(last) else { return false };
-        if self.facts.has(Fact::Away) || self.facts.has(Fact::FreshTool) {
-            self.expected.approach_at(2.0 * end.to.linear[0].abs(), self.settings);
-        }
+        self.lead_in(end.to.linear[0]);
         let linear = self.settings.forward.frame_of(&end.to).linear(pose.tip);
         let exact = Position { linear, ..end.to };
         let leg = if self.facts.has(Fact::FreshTool) { Leg::FromAfar } else { Leg::OfPath };
@@ -63,6 +62,15 @@ impl<C: Steps> Verifier<'_, C> {
         }
         self.memory.rapid_end = Some(*pose);
         true
+    }
+
+    /// The first rapid of a tool that comes to the part ends at X, even where the one before it
+    /// stood: it leads in to a surface speed.
+    fn lead_in(&mut self, x: f64) {
+        let is_first = self.facts.has(Fact::FreshTool) && !self.expected.leads_in();
+        if self.facts.has(Fact::Away) || is_first {
+            self.expected.approach_at(2.0 * x.abs(), self.settings);
+        }
     }
 
     /// The next block is a rapid to where the tool stands but for its last digits.

@@ -399,6 +399,11 @@ impl Expected {
         self.spindle.approach = within.filter(|_| settings.leads_in_by_turns());
     }
 
+    /// The rev/min of an approach is known.
+    pub(super) fn leads_in(&self) -> bool {
+        self.spindle.approach.is_some()
+    }
+
     /// Takes up a speed, with the range that it brings along.
     fn take_speed(&mut self, speed: Speed, settings: &Settings) {
         let speed = match speed {
