@@ -280,7 +280,11 @@ impl Klartext<'_> {
                 let clockwise = code == 13;
                 let turn = if clockwise { Spindle::Clockwise } else { Spindle::Counterclockwise };
                 self.state.turn_spindle(turn);
-                self.state.cool(Some(COOLANT));
+                let coolant = match self.state.dialect.auxiliary(code) {
+                    Auxiliary::Coolant { code, .. } => code,
+                    _ => COOLANT,
+                };
+                self.state.cool(Some(coolant));
                 return Ok(After::Nothing);
             }
             91 | 92 => return Ok(After::InMachineFrame),
