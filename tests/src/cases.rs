@@ -11,7 +11,8 @@
 //! - `line BLOCK`, `numbered BLOCK`: blocks in this order, without and with their sequence
 //!   numbers.
 //! - `never BLOCK`, `never-numbered BLOCK`: no block is so. `count N BLOCK`: N blocks are.
-//! - `agrees`: `filpost verify` finds nothing.
+//! - `agrees`: `filpost verify` finds nothing; `compares all`: it leaves nothing open, `leaves TEXT`:
+//!   it leaves something open that holds the text.
 //! - `without BLOCK`, `behind BLOCK: TEXT`: blocks are taken out, a block is put behind the first
 //!   one; `finds TEXT`: then verify finds something that holds the text.
 //! - `explains SUBJECT: TEXT`: what `filpost explain` tells holds the text.
@@ -223,8 +224,16 @@ impl Outcome {
                 told(wanted == found.to_string(), || format!("found {found}"))
             }
             "agrees" => {
-                let found = self.verify();
+                let found = self.verify().0;
                 told(found.is_empty(), || found.join("\n"))
+            }
+            "compares" => {
+                let open = self.verify().1;
+                told(open.is_empty(), || open.join("\n"))
+            }
+            "leaves" => {
+                let open = self.verify().1.join("\n");
+                told(open.contains(rest), || format!("verify leaves `{open}` open"))
             }
             "without" => {
                 self.nc.retain(|block| !matches(rest, without_number(block)));
@@ -237,7 +246,7 @@ impl Outcome {
                 Ok(())
             }
             "finds" => {
-                let found = self.verify().join("\n");
+                let found = self.verify().0.join("\n");
                 told(found.contains(rest), || format!("verify finds `{found}`"))
             }
             "explains" => {
@@ -265,15 +274,20 @@ impl Outcome {
     }
 
     /// What verify finds and what it could not compare.
-    fn verify(&self) -> Vec<String> {
-        let Some(program) = &self.program else { return vec!["no post".to_string()] };
+    fn verify(&self) -> (Vec<String>, Vec<String>) {
+        let Some(program) = &self.program else {
+            return (vec!["no post".to_string()], Vec::new());
+        };
         let text = self.nc.join("\n") + "\n";
         let nc = NcProgram { text: text.as_bytes(), name: "part.nc" };
         match self.start(program.start()).verify(&self.cl[..], nc, Allowed::default()) {
-            Ok((report, _)) => report.findings.iter().map(ToString::to_string).collect(),
+            Ok((report, _)) => (
+                report.findings.iter().map(ToString::to_string).collect(),
+                report.unverified.into_iter().map(|open| open.what).collect(),
+            ),
             Err(error) => {
                 let (code, told) = refusal(&error);
-                vec![format!("{code} {told}")]
+                (vec![format!("{code} {told}")], Vec::new())
             }
         }
     }

@@ -19,14 +19,13 @@ use fil_diag::Diag;
 use fil_machine::Letter;
 use fil_machine::axis_chain::{AxisChain, Carries};
 use fil_machine::commons::{Commons, EMPTY, Kind};
-use fil_machine::effects::{Effect, Effects};
+use fil_machine::effects::{Effect, Effects, Rule};
 use fil_machine::letter::letters;
 use fil_machine::locations::Location;
 use fil_machine::tape_style;
 use fil_text::CodePage;
 
 use crate::forward::Forward;
-use crate::text::Block;
 pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
 pub use family::Family;
 use g_codes::Functions;
@@ -154,6 +153,8 @@ pub(crate) struct StartModes {
     /// The modes that are certain.
     pub(crate) certain: Certain,
 }
+    /// Those that stay certain behind a block of others that may change modes.
+    pub(crate) behind_others: Certain,
 
 /// In which form values are written.
 #[derive(Clone, Copy, Debug)]
@@ -274,6 +275,7 @@ impl Dialect {
                 feed_mode: functions.feed_mode(start::in_force(&settings, "feed.mode")),
                 certain: Certain::new(&settings, &functions),
             },
+                behind_others: Certain::behind_others(&settings, &functions),
             codes: Codes { functions, auxiliaries: Auxiliaries::new(&settings) },
             forms,
             turning: Turning::new(&settings),
@@ -315,18 +317,35 @@ impl Dialect {
         self.codes.auxiliaries.get(code)
     }
 
-    /// The machine says that a block changes nothing that a program counts on, as one that smooths
-    /// the path does. An M word says it of itself alone.
-    pub(crate) fn changes_nothing(&self, block: &Block) -> bool {
+    /// What a block does by the machine's own word, as one that smooths the path changes nothing. A
+    /// function of its own number is told all the same, as the CL file may ask for it.
+    pub(crate) fn effect(&self, block: impl FnOnce() -> String) -> Option<Effect> {
         if self.effects.is_empty() {
             return false;
         }
-        let words = block.words.iter().filter(|word| word.letter != b'N');
-        let text: String = words
-            .map(|word| format!("{}{}", char::from(word.letter), word.number.value()))
-            .collect();
-        let found = self.effects.of(&text);
-        found.is_some_and(|found| found.rule.effect == Effect::Nothing && !found.is_function)
+        let found = self.effects.of(&block()).map(|found| found.rule);
+        found.filter(|rule| self.told(rule).is_none()).map(|rule| rule.effect)
+    }
+
+    /// The number of the M function that a rule names, where it is none of those that the control
+    /// itself carries out.
+    fn told(&self, rule: &Rule) -> Option<u32> {
+        let function = rule.function().filter(|function| function.is_whole())?;
+        match self.auxiliary(i64::from(function.in_tenths() / 10)) {
+            Auxiliary::Other(code) => Some(code),
+            _ => None,
+        }
+    }
+
+    /// An M function changes nothing, by the machine's own word.
+    pub(crate) fn is_allowed(&self, code: i64) -> bool {
+        self.allowed_functions().iter().any(|allowed| i64::from(*allowed) == code)
+    }
+
+    /// The M functions that change nothing, by the machine's own word.
+    pub(crate) fn allowed_functions(&self) -> Vec<u32> {
+        let rules = self.effects.rules().iter().filter(|rule| rule.effect == Effect::Nothing);
+        rules.filter_map(|rule| self.told(rule)).collect()
     }
 
     /// The control does this.

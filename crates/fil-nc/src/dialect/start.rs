@@ -26,6 +26,18 @@ impl Certain {
         }))
     }
 
+    /// Those behind a block of others that may change modes: the ones that the control has no other
+    /// of, or that its programs never say.
+    pub(super) fn behind_others(settings: &Settings<'_>, functions: &Functions) -> Self {
+        let is_klartext = settings.code("control.family") == Some(1);
+        let says = |mode: StartMode| {
+            let said = key(mode).and_then(|key| key.strip_suffix("_in_force"));
+            said.is_none_or(|key| settings.code(key).is_some())
+        };
+        let stays = |mode: StartMode| is_klartext || !functions.has_several(mode) || !says(mode);
+        Certain(StartMode::ALL.map(stays))
+    }
+
     /// A block says a mode.
     pub(crate) fn say(&mut self, mode: StartMode) {
         self.0[mode as usize] = true;

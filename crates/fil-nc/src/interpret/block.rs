@@ -1,5 +1,7 @@
 //! One block: modes first, then tool and spindle, then the motion.
 
+use fil_machine::effects::Effect;
+
 use super::Fault;
 use super::left_to_control::Uses;
 use super::state::State;
@@ -39,7 +41,13 @@ impl State<'_> {
     pub(super) fn run(&mut self, block: &Block) -> Result<Outcome, Fault> {
         self.line = block.line;
         self.events.clear();
-        if self.dialect.changes_nothing(block) {
+        let text = || {
+            let words = block.words.iter().filter(|word| word.letter != b'N');
+            words
+                .map(|word| format!("{}{}", char::from(word.letter), word.number.value()))
+                .collect()
+        };
+        if self.is_of_others(text) {
             return Ok(Outcome::Next);
         }
         let mut words = std::mem::take(&mut self.words);
@@ -48,6 +56,17 @@ impl State<'_> {
         // The next block uses its memory again.
         self.words = words;
         Ok(outcome)
+    }
+
+    /// A block whose effect the machine states, and which leaves the axes where they are. Behind one
+    /// that may change modes none is certain.
+    pub(super) fn is_of_others(&mut self, block: impl FnOnce() -> String) -> bool {
+        let effect = self.dialect.effect(block);
+        if effect == Some(Effect::KeepsPosition) {
+            self.certain = self.dialect.start.behind_others;
+            self.motion = None;
+        }
+        matches!(effect, Some(Effect::Nothing | Effect::KeepsPosition))
     }
 
     fn follow(&mut self, words: &mut Words) -> Result<Outcome, Fault> {

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use super::blocks::OwnBlocks;
 use super::report::{Finding, FindingKind, Report};
+use super::settings::Settings;
 
 /// What the CL file asks for.
 #[derive(Clone, Copy, Debug)]
@@ -24,13 +25,16 @@ pub(super) struct Auxiliaries {
     allowed: Vec<(u32, [u32; 2])>,
     /// From this line of the program on nobody knows what must come.
     open_from: Option<u32>,
-    /// The codes of the way out of threads: where they stand shows in the passes of the cycles.
-    way_out: Option<[u32; 2]>,
+    /// Codes that may stand anywhere: those of the way out of threads, which shows in the passes of
+    /// the cycles, and those that change nothing by the machine's own word.
+    free: Vec<u32>,
 }
 
 impl Auxiliaries {
-    pub(super) fn new(way_out: Option<[u32; 2]>) -> Self {
-        Auxiliaries { way_out, ..Auxiliaries::default() }
+    pub(super) fn new(settings: &Settings<'_>) -> Self {
+        let way_out = settings.way_out_codes().into_iter().flatten();
+        let free = way_out.chain(settings.dialect.allowed_functions()).collect();
+        Auxiliaries { free, ..Auxiliaries::default() }
     }
 
     pub(super) fn ask(&mut self, code: u32, cl_line: u32, lines: [u32; 2]) {
@@ -78,6 +82,9 @@ impl Auxiliaries {
                     continue;
                 }
                 let [first, last] = asked.lines;
+                if *line < first && self.is_free(code) && left[&code] > 0 {
+                    continue;
+                }
                 if !(first..=last).contains(line) {
                     let message = format!(
                         "M{code} is elsewhere, it should be between lines {first} and {last}"
@@ -91,9 +98,13 @@ impl Auxiliaries {
         report
     }
 
+    /// Where a function stands, and what it does, is nothing to look at.
+    pub(super) fn is_free(&self, code: u32) -> bool {
+        self.free.contains(&code)
+    }
+
     fn extra(&self, report: &mut Report, line: u32, code: u32) {
-        let switches_way_out = self.way_out.is_some_and(|codes| codes.contains(&code));
-        if !switches_way_out && self.open_from.is_none_or(|open| line < open) {
+        if !self.is_free(code) && self.open_from.is_none_or(|open| line < open) {
             let message = format!("M{code}: neither the CL file nor the settings ask for it");
             find(report, None, Some(line), message);
         }

@@ -154,7 +154,9 @@ impl<C: Steps> Verifier<'_, C> {
     /// compared with the modes of the motions.
     pub(super) fn auxiliary(&mut self, cl_line: u32, code: u32) {
         if matches!(self.settings.dialect.auxiliary(i64::from(code)), Auxiliary::Other(_)) {
-            self.unknown(cl_line, "AUXFUN", Effect::Auxiliary);
+            if !self.auxiliaries.is_free(code) {
+                self.unknown(cl_line, "AUXFUN", Effect::Auxiliary);
+            }
             self.ask_auxiliary(cl_line, Some(code));
         }
     }

@@ -60,16 +60,19 @@ pub fn compare_programs(programs: Programs<'_>) -> Result<Report, Unfollowed> {
     let blocks = Blocks::new(commons, allowed.between).map_err(Unfollowed::Found)?;
     let settings = Settings::new(commons, allowed.tolerance).map_err(Unfollowed::Found)?;
     let rules = Rules::new(&settings);
+    let free = settings.dialect.allowed_functions();
+    let count = Count { motions: 0, free: &free };
+    let looks = Looks { rules, blocks, free: &free };
     let mut pair = Pair {
-        wanted: Window::new(EventFilter::new(reference, Count::default())),
-        found: Window::new(EventFilter::new(found, Looks { rules, blocks })),
+        wanted: Window::new(EventFilter::new(reference, count)),
+        found: Window::new(EventFilter::new(found, looks)),
         tolerance: allowed.tolerance.unwrap_or(0.0) + DUST,
         report: Report::default(),
     };
     pair.all();
     let Pair { wanted, found, mut report, .. } = pair;
     report.compared = wanted.finish().map_err(Unfollowed::Reference)?.into_watcher().motions;
-    let Looks { rules, blocks } = found.finish().map_err(Unfollowed::Found)?.into_watcher();
+    let Looks { rules, blocks, .. } = found.finish().map_err(Unfollowed::Found)?.into_watcher();
     report.append(rules.findings);
     report.between = blocks.report.between;
     report.append(blocks.report);
@@ -77,31 +80,38 @@ pub fn compare_programs(programs: Programs<'_>) -> Result<Report, Unfollowed> {
 }
 
 /// Counts the motions of a reference.
-#[derive(Default)]
-struct Count {
+struct Count<'s> {
     motions: u64,
+    /// Functions that may be there or not.
+    free: &'s [u32],
 }
 
-impl Watcher for Count {
+/// An event that is compared with one of the other program.
+fn is_compared(event: &Event, free: &[u32]) -> bool {
+    !event.stands_alone() && !matches!(event, Event::Auxiliary { code, .. } if free.contains(code))
+}
+
+impl Watcher for Count<'_> {
     fn sees(&mut self, event: &Event) -> bool {
         self.motions += u64::from(matches!(event, Event::Move(_)));
-        !event.stands_alone()
+        is_compared(event, self.free)
     }
 }
 
 /// What is looked at in a program whatever the reference does.
-struct Looks {
+struct Looks<'s> {
     rules: Rules,
     blocks: Blocks,
+    free: &'s [u32],
 }
 
-impl Watcher for Looks {
+impl Watcher for Looks<'_> {
     fn sees(&mut self, event: &Event) -> bool {
         self.rules.look(event);
         if let Event::Move(found) = event {
             self.blocks.look(found);
         }
-        !event.stands_alone()
+        is_compared(event, self.free)
     }
 }
 
@@ -170,8 +180,8 @@ fn block(nc_line: Option<u32>, message: String) -> Finding {
 }
 
 struct Pair<'a> {
-    wanted: Window<EventFilter<'a, Count>>,
-    found: Window<EventFilter<'a, Looks>>,
+    wanted: Window<EventFilter<'a, Count<'a>>>,
+    found: Window<EventFilter<'a, Looks<'a>>>,
     tolerance: f64,
     report: Report,
 }

@@ -88,7 +88,7 @@ impl<'a, C: Steps> Verifier<'a, C> {
             own,
             blocks: MachineBlockEffects::default(),
             places: Places::of(settings),
-            auxiliaries: Auxiliaries::new(settings.way_out_codes()),
+            auxiliaries: Auxiliaries::new(settings),
             settings,
             slack: settings.slack(true),
             limits: AxisLimits {

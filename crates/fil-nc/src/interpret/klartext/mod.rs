@@ -169,6 +169,9 @@ impl Klartext<'_> {
             (Part::Ended | Part::Closed, _) => {
                 return Err(Fault::new(NcCode::AfterEnd, "the program has ended before this line"));
             }
+            (Part::Body, _) if self.state.is_of_others(|| words.join(" ")) => {
+                return Ok(());
+            }
             (Part::Body, _) => {}
         }
         if line.continues {
@@ -297,7 +300,7 @@ impl Klartext<'_> {
                 self.shortest = code == 126;
                 return Ok(After::Nothing);
             }
-            89.. => {
+            89.. if !self.state.dialect.is_allowed(code) => {
                 let message = format!("M{code} changes what motions or cycles do");
                 return Err(Fault::new(NcCode::ForeignCode, message).at(&word.range));
             }

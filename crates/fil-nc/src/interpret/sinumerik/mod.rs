@@ -176,6 +176,10 @@ impl Sinumerik<'_> {
         if self.part == Part::Behind {
             return Ok(());
         }
+        let text_of = || String::from_utf8_lossy(text).into_owned();
+        if self.part == Part::Body && self.state.is_of_others(text_of) {
+            return Ok(());
+        }
         let words = line::read(text)?;
         let Some(first) = words.first() else { return Ok(()) };
         if self.part == Part::Ended {
