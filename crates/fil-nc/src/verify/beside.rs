@@ -157,6 +157,7 @@ impl<C: Steps> Verifier<'_, C> {
             if !self.auxiliaries.is_free(code) {
                 self.unknown(cl_line, "AUXFUN", Effect::Auxiliary);
             }
+            self.may_have(&format!("M{code}"));
             self.ask_auxiliary(cl_line, Some(code));
         }
     }

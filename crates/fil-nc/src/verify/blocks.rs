@@ -8,6 +8,7 @@ use fil_machine::user_blocks::NAMES;
 use super::report::{Report, Unverified};
 use crate::dialect::{Marks, SKIP};
 use crate::source::{Lines, Source, unreadable};
+use crate::text::read_block;
 
 /// Texts of INSERT that were looked for to the end of the program without being there;
 /// for one more than these only so many lines are read.
@@ -34,6 +35,8 @@ pub(super) struct OwnBlocks<'a> {
     passed: u32,
     /// Texts of INSERT that don't come any more.
     missing: HashSet<Vec<u8>>,
+    /// Blocks of words that the CL file names, bare, and the lines between which they stand.
+    words: Vec<(Vec<u8>, [u32; 2])>,
 }
 
 impl<'a> OwnBlocks<'a> {
@@ -61,6 +64,7 @@ impl<'a> OwnBlocks<'a> {
             from: 0,
             passed: 0,
             missing: HashSet::new(),
+            words: Vec::new(),
         };
         if !own.asked.is_empty() || !own.around.is_empty() {
             own.find()?;
@@ -173,6 +177,39 @@ impl<'a> OwnBlocks<'a> {
         Ok(None)
     }
 
+    /// A block of words that the CL file names may stand between two lines, which an interpreter
+    /// need not know.
+    pub(super) fn may_have(&mut self, words: &str, lines: [u32; 2]) {
+        self.words.push((bare(words.as_bytes()), lines));
+    }
+
+    /// The block of words that a refused line is.
+    fn words_of(&self, refused: &Diag) -> Option<&[u8]> {
+        let span = refused.spans.first()?;
+        let text = bare(&self.marks.read(span.excerpt.as_bytes()));
+        let text = text.strip_prefix(&[SKIP]).unwrap_or(&text);
+        let is_it = |(words, [first, last]): &&(Vec<u8>, [u32; 2])| {
+            words == text && (*first..=*last).contains(&span.line)
+        };
+        self.words.iter().find(is_it).map(|(words, _)| words.as_slice())
+    }
+
+    /// The auxiliary functions of refused lines that the CL file names: the line and the number of
+    /// each.
+    pub(super) fn functions_of(&self, refused: &[Diag]) -> Vec<(u32, u32)> {
+        let mut found = Vec::new();
+        for diag in refused {
+            let (Some(words), Some(span)) = (self.words_of(diag), diag.spans.first()) else {
+                continue;
+            };
+            let Ok(block) = read_block(words, self.name, span.line) else { continue };
+            let functions = block.words.iter().filter(|word| word.letter == b'M');
+            let codes = functions.filter_map(|word| u32::try_from(word.number.digits).ok());
+            found.extend(codes.map(|code| (span.line, code)));
+        }
+        found
+    }
+
     /// Lines that the interpreter can't follow are not compared where an author wrote them.
     ///
     /// # Errors
@@ -183,7 +220,8 @@ impl<'a> OwnBlocks<'a> {
         report: &mut Report,
     ) -> Result<(), Box<Diag>> {
         let line = |diag: &Diag| diag.spans.first().map_or(0, |span| span.line);
-        if let Some(diag) = refused.iter().find(|diag| !self.has(line(diag))) {
+        let is_own = |diag: &&Diag| self.has(line(diag)) || self.words_of(diag).is_some();
+        if let Some(diag) = refused.iter().find(|diag| !is_own(diag)) {
             return Err(Box::new(diag.clone()));
         }
         let mut reasons: Vec<(&Diag, usize)> = Vec::new();

@@ -15,8 +15,16 @@ use crate::work_offsets::numbered_offset;
 const TOOLS_STEP: i64 = 100;
 
 impl<C: Steps> Verifier<'_, C> {
+    /// A block of words that the CL file names may be here.
+    pub(super) fn may_have(&mut self, words: &str) {
+        self.pass_own();
+        let next = self.nc.line(self.next).unwrap_or(u32::MAX);
+        self.own.may_have(words, [self.last_line(), next]);
+    }
+
     /// The auxiliary functions among words of the user's own must be there.
     pub(super) fn ask_words(&mut self, cl_line: u32, text: &str) {
+        self.may_have(text);
         let Ok(block) = read_block(text.as_bytes(), "POSTN", 1) else { return };
         for word in block.words.iter().filter(|word| word.letter == b'M') {
             let code = word.number.digits;

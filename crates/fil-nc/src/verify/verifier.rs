@@ -129,8 +129,11 @@ impl<'a, C: Steps> Verifier<'a, C> {
             self.step(&step);
         }
         let finished = self.nc.finish();
-        self.own.leave_open(&passed.take(), &mut self.report)?;
+        let refused = passed.take();
+        self.own.leave_open(&refused, &mut self.report)?;
         let mut beside = finished?.into_watcher();
+        beside.auxiliaries.extend(self.own.functions_of(&refused));
+        beside.auxiliaries.sort_by_key(|(line, _)| *line);
         if let Some(diag) = self.failed.or(self.cl.failed) {
             return Err(diag);
         }
