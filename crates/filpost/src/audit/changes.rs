@@ -111,7 +111,7 @@ impl Changes {
     ) {
         let (left_out, added) = (std::mem::take(left_out), std::mem::take(added));
         let Some(cause) = added.first().or(left_out.first()).map(|made| made.cause) else { return };
-        let of_added = added.first().map_or(0, |made| made.stack_of(None));
+        let of_added = added.first().map_or(0, |made| made.stack_of(made.words.first()));
         let of_record = || {
             let stacks = pairs.iter().filter_map(|pair| match pair {
                 Pair::Same(_, made) | Pair::Changed(_, made) | Pair::Added(made) => {
@@ -202,8 +202,36 @@ impl Changes {
                 texts.push(format!("… {more} more"));
             }
         }
+        if self.moves(&author, place, (&from, &to)) {
+            return;
+        }
         let key = Key::Texts(from.clone(), to.clone());
         self.add(author, key, place, What::Blocks { from, to });
+    }
+
+    /// Blocks that the same author has put in or left out beside another place of a record, and
+    /// that are left out or put in here: they have moved.
+    fn moves(
+        &mut self,
+        author: &Author,
+        place: (u32, Option<u32>),
+        (from, to): (&[String], &[String]),
+    ) -> bool {
+        let Some(last) = self.list.last_mut() else { return false };
+        let What::Blocks { from: left_out, to: put_in } = &mut last.what else { return false };
+        let is_one = left_out.is_empty() != put_in.is_empty() && from.is_empty() != to.is_empty();
+        let moves = is_one && left_out == to && put_in == from;
+        if !moves || last.count != 1 || last.cl_lines != [place.0] || last.author != *author {
+            return false;
+        }
+        let texts = if to.is_empty() { from } else { to };
+        let key = Key::Texts(left_out.clone(), put_in.clone());
+        (*left_out, *put_in) = (texts.to_vec(), texts.to_vec());
+        last.nc_lines.extend(place.1);
+        let moved = Key::Texts(texts.to_vec(), texts.to_vec());
+        let index = self.known.remove(&(author.clone(), key));
+        self.known.extend(index.map(|index| ((author.clone(), moved), index)));
+        true
     }
 
     /// Who made a block, or left one out.

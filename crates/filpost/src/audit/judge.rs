@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use fil_diag::Diag;
 use fil_nc::decimals;
-use fil_nc::dialect::Dialect;
+use fil_nc::dialect::{Dialect, Group};
 use fil_nc::events::Events;
 use fil_nc::interpret::{Running, has_skipped_blocks};
 use fil_nc::motion::{Course, Event, Move, Rate};
@@ -14,6 +14,7 @@ use fil_nc::verify::{
 };
 
 use super::lines::SameLines;
+use super::stated::Stated;
 use crate::program::Program;
 
 /// What binary fractions may differ by, mm.
@@ -49,22 +50,25 @@ fn unfollowed(why: &Diag) -> String {
 }
 
 /// Blocks of the post that do something else than in the program without scripts, though they
-/// have the same words: an author has left a mode that the post should have said again.
+/// have the same words: an author has left a mode that the post should have said again. Where the
+/// post has said the mode itself, it follows what an author has set, and means it.
 pub(super) fn effects(
-    program: &Program,
+    dialect: &Dialect,
     reference: (&Source<'_>, &str),
     nc: (&Source<'_>, &str),
-    same: &SameLines,
+    (same, stated): (&SameLines, &Stated<'_>),
 ) -> Result<Report, String> {
-    let dialect = Dialect::new(program.commons()).map_err(|why| unfollowed(&why))?;
-    let mut wanted = Moves::new(Running::new(reference.0, reference.1, &dialect));
-    let mut found = Moves::new(Running::new(nc.0, nc.1, &dialect));
+    let mut wanted = Moves::new(Running::new(reference.0, reference.1, dialect));
+    let mut found = Moves::new(Running::new(nc.0, nc.1, dialect));
     let mut report = Report::default();
     // What can't be followed is told with the rules.
     while let Some(made) = found.next() {
         let Some(line) = same.of_program(made.to.line) else { continue };
         let Some(asked) = wanted.at(line) else { continue };
         let Some((kind, message)) = differs(&asked, &made) else { continue };
+        if stated.is_meant(group_of(kind), made.to.line) {
+            continue;
+        }
         report.findings.push(Finding {
             kind,
             cl_line: None,
@@ -76,6 +80,16 @@ pub(super) fn effects(
         }
     }
     Ok(report)
+}
+
+/// The functions that say what a block is found to do otherwise.
+fn group_of(kind: FindingKind) -> Group {
+    match kind {
+        FindingKind::Units => Group::Units,
+        FindingKind::Feed => Group::Feed,
+        FindingKind::Position => Group::Positions,
+        _ => Group::Motion,
+    }
 }
 
 /// What a block does otherwise with the same words, of what the post must not leave to others.
@@ -180,11 +194,22 @@ impl<'e> Moves<'e> {
 #[cfg(test)]
 mod tests {
     use super::super::align::Pair;
-    use super::super::made::Made;
+    use super::super::made::{Made, Word};
     use super::*;
 
     /// What the post's own blocks do otherwise in the second program; `same` are lines of both.
     fn findings(reference: &str, nc: &str, same: &[(u32, u32)]) -> Vec<String> {
+        findings_with(reference, nc, same, None)
+    }
+
+    /// The same where a line of the second program has a function, which an author has spelt or
+    /// the post has written.
+    fn findings_with(
+        reference: &str,
+        nc: &str,
+        same: &[(u32, u32)],
+        function: Option<(u32, &str, bool)>,
+    ) -> Vec<String> {
         let made = |nc_line| Made { nc_line, cause: fil_post::Cause::default(), words: Vec::new() };
         let mut lines = SameLines::default();
         for (one, two) in same {
@@ -193,7 +218,14 @@ mod tests {
         let program = Program::builder().generic("fanuc-mill").build().expect("a post");
         let texts = [reference, nc].map(|text| Source::owned(text.as_bytes().to_vec()));
         let [reference, nc] = &texts;
-        let report = effects(&program, (reference, "reference"), (nc, "part.nc"), &lines);
+        let dialect = Dialect::new(program.commons()).expect("its control");
+        let mut stated = Stated::new(&dialect);
+        for (nc_line, text, is_spelt) in function {
+            let word = Word { text: text.to_string(), letter: 'G', stack: 1, is_spelt };
+            stated.record(&[Pair::Added(&Made { words: vec![word], ..made(nc_line) })]);
+        }
+        let both = ((reference, "reference"), (nc, "part.nc"));
+        let report = effects(&dialect, both.0, both.1, (&lines, &stated));
         report.expect("both are followed").findings.iter().map(ToString::to_string).collect()
     }
 
@@ -218,6 +250,18 @@ mod tests {
         let same = [(1, 1), (2, 2), (3, 4), (4, 5), (5, 6)];
         let found = findings(PART, &nc, &same);
         assert!(found[0].contains("feed per revolution in place of feed per minute"), "{found:?}");
+    }
+
+    #[test]
+    fn a_mode_that_the_post_has_written_itself_is_meant() {
+        let nc = PART.replace("G1 X10.", "G95\nG1 X10.");
+        let same = [(1, 1), (2, 2), (3, 4), (4, 5), (5, 6)];
+        let found = |is_spelt| findings_with(PART, &nc, &same, Some((3, "G95", is_spelt)));
+        assert_eq!(found(false), [] as [String; 0]);
+        assert_eq!(found(true).len(), 2);
+        // What the post has written before holds no longer.
+        let before = findings_with(PART, &nc, &same, Some((1, "G1", false)));
+        assert_eq!(before.len(), 2, "{before:?}");
     }
 
     #[test]

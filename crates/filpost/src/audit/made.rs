@@ -17,6 +17,8 @@ pub(super) struct Word {
     pub letter: char,
     /// The FIL call stack that caused it; 0 for none.
     pub stack: u32,
+    /// A statement of FIL names it as it is.
+    pub is_spelt: bool,
 }
 
 impl Word {
@@ -41,9 +43,7 @@ pub(super) struct Made {
 impl Made {
     /// Both have the same words.
     pub fn is_as(&self, other: &Made) -> bool {
-        let texts =
-            |made: &Made| made.words.iter().map(|word| word.text.clone()).collect::<Vec<_>>();
-        self.words.len() == other.words.len() && texts(self) == texts(other)
+        self.words.iter().map(|word| &word.text).eq(other.words.iter().map(|word| &word.text))
     }
 
     /// Its words, as they are written.
@@ -59,6 +59,19 @@ impl Made {
     /// The FIL call stack behind a word of it, or behind the block; 0 for none.
     pub fn stack_of(&self, word: Option<&Word>) -> u32 {
         word.map(|word| word.stack).filter(|stack| *stack != 0).unwrap_or(self.cause.stack)
+    }
+}
+
+/// The letter of a text.
+pub(super) const TEXT: char = '_';
+
+/// A text without a sequence number, which a block that an author has replaced holds.
+fn without_number(text: &str) -> &str {
+    let digits = text.strip_prefix('N').unwrap_or(text);
+    let rest = digits.trim_start_matches(|c: char| c.is_ascii_digit());
+    match rest.strip_prefix(' ') {
+        Some(rest) if !digits.starts_with(' ') => rest.trim_start(),
+        _ => text,
     }
 }
 
@@ -109,9 +122,13 @@ impl<'s, R: Read + Seek> Blocks<'s, R> {
             let text = self.lines.next_line().map_err(|error| Error::Run(Box::new(cant(error))))?;
             let text = String::from_utf8_lossy(text.unwrap_or_default());
             let words = line.words.iter().filter(|word| word.letter != '#').map(|word| Word {
-                text: word.text(&text).to_string(),
+                text: match word.letter {
+                    TEXT => without_number(word.text(&text)).to_string(),
+                    _ => word.text(&text).to_string(),
+                },
                 letter: word.letter,
                 stack: word.cause.stack,
+                is_spelt: word.cause.made_by_fil && word.cause.word != 0,
             });
             let nc_line = u32::try_from(line.number).unwrap_or(u32::MAX);
             return Ok(Some(Made { nc_line, cause: line.cause, words: words.collect() }));

@@ -17,10 +17,12 @@ mod lines;
 mod made;
 mod posted;
 mod reference;
+mod stated;
 mod text;
 
 use std::io::{Read, Seek};
 
+use fil_nc::dialect::Dialect;
 use fil_nc::source::Source;
 use fil_nc::verify::{Allowed, Finding, Report};
 
@@ -33,6 +35,7 @@ use changes::Changes;
 use lines::SameLines;
 use made::Blocks;
 use reference::Reference;
+use stated::Stated;
 
 pub use json::as_json;
 
@@ -91,7 +94,7 @@ pub enum What {
         /// Motions until something turns it.
         blocks: u64,
     },
-    /// Blocks, or words of one, were put in, left out or replaced.
+    /// Blocks, or words of one, were put in, left out, replaced, or moved where both are the same.
     Blocks {
         /// What the post alone writes; none for what was put in.
         from: Vec<String>,
@@ -211,6 +214,8 @@ impl Run<'_> {
                 return Ok(audit);
             }
         };
+        let dialect = Dialect::new(self.program.commons())?;
+        let mut stated = Stated::new(&dialect);
         let same = {
             let inserts = plain.records_of(INSERT)?;
             let mut changes = Changes::new(taken, inserts);
@@ -221,6 +226,7 @@ impl Run<'_> {
             audit.blocks = right.map.nc_lines();
             align::records(&mut left, &mut right, |program, pairs| {
                 same.record(pairs);
+                stated.record(pairs);
                 changes.record(program, pairs);
                 audit.kept +=
                     pairs.iter().filter(|pair| matches!(pair, Pair::Same(..))).count() as u64;
@@ -229,7 +235,7 @@ impl Run<'_> {
             same
         };
         audit.find(judge::rules(&self.program, nc));
-        audit.find(judge::effects(&self.program, (&plain.nc, reference::NAME), nc, &same));
+        audit.find(judge::effects(&dialect, (&plain.nc, reference::NAME), nc, (&same, &stated)));
         self.judge_by_cl(&mut audit, &mut cl, nc, (map, has_scripts), (plain, same))?;
         Ok(audit)
     }

@@ -43,6 +43,7 @@ impl fmt::Display for What {
             }
             What::Blocks { from, to } if from.is_empty() => write!(f, "{} put in", shown(to)),
             What::Blocks { from, to } if to.is_empty() => write!(f, "{} left out", shown(from)),
+            What::Blocks { from, to } if from == to => write!(f, "{} moved", shown(to)),
             What::Blocks { from, to } => write!(f, "{} -> {}", shown(from), shown(to)),
         }
     }
