@@ -301,6 +301,9 @@ fn unknown(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
             "An NC alias stands for LOADTL, TURRET, PARTNO or MFGNO: write a section CIMFIL/ON,{name} that gives the statement, or list {name} under words.without_effect."
         );
         (no_handler, Some(hint))
+    } else if site_word::is_of_fil(name) {
+        let hint = "A macro file goes behind -f (--fil), and the CL file before it.".to_string();
+        (format!("{no_handler}, which is a statement of FIL"), Some(hint))
     } else if let Some(does) = site_word::on_other_machines(name) {
         let hint =
             format!("Write a section CIMFIL/ON,{name} that writes the code of your machine.");

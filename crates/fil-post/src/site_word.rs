@@ -30,6 +30,17 @@ const OF_OTHER_MACHINES: [(&str, &str); 3] = [
     ("GENRTR", "names the generator register of a wire EDM machine"),
 ];
 
+/// Statements of FIL that no CL file has: a text with them is a macro file.
+const OF_FIL: [&str; 11] = [
+    "CASE", "CIMFIL", "ELSE", "ELSEIF", "ENDCAS", "ENDIF", "JUMPTO", "MACRO", "REDEF", "TERMAC",
+    "WHEN",
+];
+
+/// True for a statement of FIL.
+pub fn is_of_fil(name: &str) -> bool {
+    OF_FIL.contains(&name)
+}
+
 /// What a word does on a machine that no post here is for.
 pub fn on_other_machines(name: &str) -> Option<&'static str> {
     OF_OTHER_MACHINES.iter().find(|(word, _)| *word == name).map(|(_, does)| *does)
@@ -64,6 +75,7 @@ pub fn may_be_without_effect(record: &Record, vocabulary: &Vocabulary) -> bool {
         && near_a_handled_word(name, vocabulary).is_none()
         && meant.is_none_or(no_effect::is_whole_record)
         && !speaks_of_doing(name)
+        && !is_of_fil(name)
         && !holds_coordinates(record)
 }
 

@@ -55,6 +55,29 @@ impl Family {
     }
 }
 
+/// Words that most CL files have near their beginning, each before a slash.
+const OF_CL: [&str; 6] = ["UNITS", "LOADTL", "SPINDL", "FEDRAT", "MACHIN", "GOTO"];
+
+/// Lines of a text by which a CL file is told.
+const TOLD_BY: usize = 50;
+
+/// The text is that of a CL file.
+///
+/// # Errors
+/// What the system says when a file can't be read.
+pub(crate) fn is_cl_file(source: &Source<'_>) -> io::Result<bool> {
+    let mut lines = Lines::from(source, 0);
+    for _ in 0..TOLD_BY {
+        let Some(line) = lines.next_line()? else { break };
+        let line = String::from_utf8_lossy(line).to_ascii_uppercase();
+        let word = line.split_once('/').map_or("", |(word, _)| word.trim());
+        if line.starts_with("$$") || OF_CL.contains(&word) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
 /// A line in upper case has what no program of words has.
 fn has_sign(line: &str) -> bool {
     let code = line.split(';').next().unwrap_or("").split('(').next().map_or(0, str::len);

@@ -28,6 +28,7 @@ use fil_text::CodePage;
 use crate::forward::Forward;
 pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
 pub use family::Family;
+pub(crate) use family::is_cl_file;
 use g_codes::Functions;
 use m_codes::Auxiliaries;
 pub(crate) use marks::{Marks, SKIP};
@@ -152,9 +153,9 @@ pub(crate) struct StartModes {
     pub(crate) feed_mode: FeedMode,
     /// The modes that are certain.
     pub(crate) certain: Certain,
-}
     /// Those that stay certain behind a block of others that may change modes.
     pub(crate) behind_others: Certain,
+}
 
 /// In which form values are written.
 #[derive(Clone, Copy, Debug)]
@@ -274,8 +275,8 @@ impl Dialect {
                 plane: functions.plane(start::in_force(&settings, "circle.plane")),
                 feed_mode: functions.feed_mode(start::in_force(&settings, "feed.mode")),
                 certain: Certain::new(&settings, &functions),
-            },
                 behind_others: Certain::behind_others(&settings, &functions),
+            },
             codes: Codes { functions, auxiliaries: Auxiliaries::new(&settings) },
             forms,
             turning: Turning::new(&settings),
@@ -321,7 +322,7 @@ impl Dialect {
     /// function of its own number is told all the same, as the CL file may ask for it.
     pub(crate) fn effect(&self, block: impl FnOnce() -> String) -> Option<Effect> {
         if self.effects.is_empty() {
-            return false;
+            return None;
         }
         let found = self.effects.of(&block()).map(|found| found.rule);
         found.filter(|rule| self.told(rule).is_none()).map(|rule| rule.effect)

@@ -35,7 +35,7 @@ use std::ops::Range;
 
 use fil_diag::{Diag, TextSpan};
 
-use crate::dialect::{Dialect, Family};
+use crate::dialect::{Dialect, Family, is_cl_file};
 use crate::errors::NcCode;
 use crate::events::Events;
 use crate::motion::Event;
@@ -44,6 +44,10 @@ use crate::source::{Lines, Source, unreadable};
 pub use passed_over::{PassedOver, PassingOver};
 pub(crate) use sinumerik::line as sinumerik_words;
 pub(crate) use sinumerik::number_of_tool;
+
+/// The note on a text that is no program.
+const OF_CL: &str =
+    "the text is that of a CL file: `filpost verify` takes the CL file first, then the program";
 
 /// A refusal, before it has its place.
 #[derive(Debug)]
@@ -157,6 +161,9 @@ impl Running<'_> {
     /// signs says nothing: any family may have such a program.
     #[cold]
     fn of_another_family(&self) -> Option<String> {
+        if is_cl_file(self.source).ok()? {
+            return Some(OF_CL.to_string());
+        }
         let told = Family::of(self.source).ok()?;
         let machine = self.dialect.family;
         (told != machine && told != Family::WordAddress).then(|| {

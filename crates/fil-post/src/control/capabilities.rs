@@ -42,4 +42,6 @@ pub struct Capabilities {
     pub reads_edited_lines: bool,
     /// What makes positions count in the frame of the machine, for people.
     pub machine_frame: &'static str,
+    /// A block of an author that brings the tool up, as the post can read it.
+    pub way_up: &'static str,
 }

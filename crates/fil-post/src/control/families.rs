@@ -36,6 +36,7 @@ const NOTHING: Capabilities = Capabilities {
     skipped_is_unknown: false,
     reads_edited_lines: false,
     machine_frame: "G53",
+    way_up: "G91 G28 Z0.",
 };
 
 /// Words of letters and numbers (ISO 6983).
@@ -57,6 +58,7 @@ static KLARTEXT: Row = Row {
         cycles_say_return: true,
         retract_function: true,
         machine_frame: "M91",
+        way_up: "L Z+0 R0 FMAX M91",
         angles_beside_vectors: true,
         straight_rapids: true,
         ..NOTHING
@@ -76,6 +78,7 @@ static SINUMERIK: Row = Row {
         speed_modes_say_feed: true,
         diameter_statement: true,
         machine_frame: "SUPA",
+        way_up: "SUPA G0 Z0 D0, then D1",
         spells_way_round: true,
         angles_beside_vectors: true,
         straight_rapids: true,

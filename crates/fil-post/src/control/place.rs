@@ -1,6 +1,6 @@
 //! Where the axes stand, positions of the machine in mm or inch.
 
-use fil_diag::Result;
+use fil_diag::{Diag, Result};
 use fil_machine::Letter;
 use fil_machine::axes::AxisSet;
 use fil_machine::commons::{EMPTY, Kind, LAST_OUTPUT};
@@ -229,11 +229,22 @@ pub fn cross_unknown(control: &mut Control, number: usize) -> Result<()> {
     unknown_height(control, number, by)
 }
 
+/// An unknown level, with a way up in the words of the control.
+fn unknown_level(control: &Control, message: String) -> Box<Diag> {
+    Box::new(PostCode::UnknownLevel.diag(message).hint(format!(
+        "Before it, put GOHOME, RETRCT, LOADTL, a block to the machine's reference point ({}), or RAPID with a GOTO straight up. Before a new work offset, retract with RAPID.",
+        control.can().way_up
+    )))
+}
+
 fn unknown_height(control: &mut Control, number: usize, by: Source) -> Result<()> {
     let letter = control.tables.axis(number).letter;
-    let diag = PostCode::UnknownLevel.diag(format!(
-        "the position of {letter} is not known here: Z first could plunge, and XY first could go through the part"
-    ));
+    let diag = unknown_level(
+        control,
+        format!(
+            "the position of {letter} is not known here: Z first could plunge, and XY first could go through the part"
+        ),
+    );
     control.doubt(by, diag, STANDS_AS_WRITTEN)?;
     control.assume_position(number);
     Ok(())
@@ -260,9 +271,12 @@ fn refuse_shifted_way(control: &mut Control, number: usize) -> Result<()> {
 /// The doubt, by its level.
 pub fn cross_unknown_way(control: &mut Control, number: usize) -> Result<()> {
     let letter = control.tables.axis(number).letter;
-    let diag = PostCode::UnknownLevel.diag(format!(
-        "the position of {letter} is not known here, and all axes move in one block: the path may go through the part"
-    ));
+    let diag = unknown_level(
+        control,
+        format!(
+            "the position of {letter} is not known here, and all axes move in one block: the path may go through the part"
+        ),
+    );
     control.doubt(control.state.lost_by(letter), diag, STANDS_AS_WRITTEN)?;
     control.assume_position(number);
     Ok(())

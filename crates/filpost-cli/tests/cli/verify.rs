@@ -205,3 +205,10 @@ fn a_production_program_that_lacks_one_retract_is_found() {
         assert!(ran.status == 1 && !ran.err.contains(NOTE), "{}{}", ran.out, ran.err);
     }
 }
+
+#[test]
+fn a_cl_file_in_place_of_the_program_is_named() {
+    let ran = verify(PROGRAM, PART, &["-p", "fanuc-mill"], &[]);
+    assert_eq!(ran.status, 1, "{}", ran.err);
+    assert!(ran.err.contains("takes the CL file first, then the program"), "{}", ran.err);
+}
