@@ -98,6 +98,8 @@ struct State {
     /// Steps of a motion record behind its first one.
     further: VecDeque<ExpectedStep>,
     frame: Frame,
+    /// A full turn ends exactly where it begins.
+    exact_turns: bool,
     /// LINTOL, mm.
     straight: Option<f64>,
     names: ToolNames,
@@ -272,6 +274,9 @@ impl<'r> ClPath<'r> {
                     }
                     None => continue,
                 }
+            }
+            if self.record.kind == kind::SURFACE {
+                self.state.exact_turns = self.reader.recognized().dialect.has_exact_turns();
             }
             let steps = self.state.take(&self.record, &self.vocabulary);
             self.give(steps);

@@ -157,7 +157,9 @@ impl State {
             end: Pose { tip: end, axis },
             sweep: 0.0,
         };
-        if is_full_or_none(&bare, waiting.turns, CLOSES / self.unit()) {
+        let runs_on = normal.dot(&bare.spoke(start).cross(&bare.spoke(end))) > 0.0;
+        let is_tiny = self.exact_turns && runs_on;
+        if !is_tiny && is_full_or_none(&bare, waiting.turns, CLOSES / self.unit()) {
             let what = "CIRCLE whose end is nearly its start, a full turn or none".to_string();
             return ExpectedStep::Unknown { what, effect: Effect::Doubtful(FindingKind::Arc) };
         }
