@@ -255,6 +255,7 @@ impl<C: Steps> Verifier<'_, C> {
     }
 
     /// The way up before a rapid to a pose that turns the machine, of a tool that has come to the part.
+    /// Under tool-tip control that stays on none comes.
     pub(super) fn go_up_for_turns(&mut self, cl_line: u32, pose: &Pose) {
         if !self.settings.turns_at_top() {
             return;
@@ -262,7 +263,10 @@ impl<C: Steps> Verifier<'_, C> {
         // A text may have turned the machine to that pose, or brought the tool away.
         self.pass_own();
         let is_in_part = !self.facts.has(Fact::FreshTool) && !self.facts.has(Fact::Away);
-        if !is_in_part || self.at.names_tip() {
+        if !is_in_part {
+            return;
+        }
+        if self.at.names_tip() && self.next_move().is_none_or(|next| next.to.names_tip()) {
             return;
         }
         let here = self.settings.forward.pose(&self.at);

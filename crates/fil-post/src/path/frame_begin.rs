@@ -1,7 +1,7 @@
 //! A tilted frame begins: the machine turns, clear of the part, and the control is told how it lies.
 
 use super::state::TiltedFrame;
-use super::{frame, height, machine_position, position, tip_control};
+use super::{frame, height, position, tip_control, way_home};
 use crate::control::needs::Act;
 use crate::control::word_address::cycle;
 use crate::control::{Control, Function, family, full_turn};
@@ -203,7 +203,7 @@ fn away(post: &Post, stands: [f64; 2]) -> Result<Away> {
 /// Turns the rotary axes, where nothing is beside the tool.
 fn turn_machine(post: &mut Post, away: Away, angles: [f64; 2]) -> Result<()> {
     if let Away::To(level) = away {
-        machine_position::carry_out(post, [None, None, Some(level)])?;
+        way_home::go_up_to(post, level)?;
     }
     let position = [0.0, 0.0, 0.0, angles[0], angles[1]];
     let motion = Motion::new(position, AxisSet::ROTARY, 0);

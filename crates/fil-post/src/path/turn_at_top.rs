@@ -10,16 +10,19 @@ use crate::operation::motion::Motion;
 use crate::post::Post;
 
 /// Goes up to `home.retract_z` (Z) before a rapid motion to a target that turns the machine, where
-/// the tool is not away already. Tilted work planes and tool center point control have rules of their
-/// own.
+/// the tool is not away already, also where tool center point control begins with it. Tilted work planes
+/// and motions under tool center point control have rules of their own.
 ///
 /// # Errors
 /// A tool axis out of reach; as a motion to a position of the machine.
 #[cold]
 pub(super) fn go_up(post: &mut Post, target: Target) -> Result<()> {
     let tables = &post.control.tables;
-    let goes_on = post.writes_tip() && post.control.state.is(modal::TCP, true);
-    if !tables.turns_at_top || tables.frame_output || goes_on {
+    let has_own_rules = match post.writes_tip() {
+        true => post.control.state.is(modal::TCP, true),
+        false => tables.frame_output,
+    };
+    if !tables.turns_at_top || has_own_rules {
         return Ok(());
     }
     if rapid_lean::is_away(&post.control) {
