@@ -109,22 +109,26 @@ pub(crate) fn release(control: &mut Control) -> Result<()> {
     Ok(())
 }
 
-/// Clamps the rotary axes again that a rapid turn has released, where the machine does so.
+/// Ends a turn with the rapid motion at hand, or with the next one behind a turn at feed: the rotary axes
+/// are clamped again, where the machine does so, and the user's blocks stand behind that.
 ///
 /// # Errors
-/// As [`clamp`].
-pub(crate) fn clamp_after_turn(control: &mut Control) -> Result<()> {
-    let is_free = control.rotary.clamped == Some(false);
-    if control.tables.clamps_turns && is_free { clamp(control, true) } else { Ok(()) }
-}
-
-/// Writes the user's blocks behind a turn, at the end of a rapid motion.
-///
-/// # Errors
-/// As the blocks.
+/// As [`clamp`] and as the blocks.
 #[inline]
 pub(super) fn end_turn(control: &mut Control) -> Result<()> {
-    match std::mem::take(&mut control.rotary.turns) && control.tables.turn_texts {
+    match std::mem::take(&mut control.rotary.turns) {
+        true => at_rest(control),
+        false => Ok(()),
+    }
+}
+
+#[cold]
+fn at_rest(control: &mut Control) -> Result<()> {
+    let is_free = control.rotary.clamped == Some(false);
+    if control.tables.clamps_turns && is_free {
+        clamp(control, true)?;
+    }
+    match control.tables.turn_texts {
         true => user_texts::write(control, user_blocks::TURN.after),
         false => Ok(()),
     }

@@ -10,7 +10,6 @@ use super::rapid_turn;
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
-use crate::control::full_turn;
 use crate::control::place::{cross_unknown, cross_unknown_way};
 use crate::control::skip::refuse_level;
 use crate::control::word_address::repeat;
@@ -231,9 +230,6 @@ fn split(
     for (group, code) in order(control, number, tool_first) {
         if !group.and(present).is_empty() {
             family::rapid(control, &motion.of(group), code, cause)?;
-        }
-        if group == AxisSet::ROTARY {
-            full_turn::clamp_after_turn(control)?;
         }
     }
     Ok(())

@@ -10,7 +10,7 @@ use fil_machine::user_blocks::{self, Around};
 use super::{height, machine_position};
 use crate::control::machine_frame::Before;
 use crate::control::word_address::{coolant, cycle, fixture, spindle};
-use crate::control::{Control, Held, family, full_turn, program, user_texts};
+use crate::control::{Control, Held, family, program, user_texts};
 use crate::control_state::{Source, WorkOffset, modal};
 use crate::operation::motion::{Motion, RapidCode};
 use crate::operation::{Coolant, Operation, Spindle, Stop};
@@ -246,6 +246,5 @@ fn turn_home(post: &mut Post) -> Result<()> {
     control.state.forget(modal::MOTION, Source::Post);
     let cause = control.block.cause.whole();
     let motion = Motion::new(Position::default(), axes, 0);
-    family::rapid(control, &motion, RapidCode::Turning, cause)?;
-    full_turn::clamp_after_turn(control)
+    family::rapid(control, &motion, RapidCode::Turning, cause)
 }
