@@ -374,23 +374,24 @@ fn frame_of_machine(commons: &Commons, found: &mut Vec<Diag>) {
     }
 }
 
-/// G28 and G30 go where parameters of the control say, by way of increments of 0.
+/// G28, G30 and G16 go where the control says.
 fn reference_points(commons: &Commons, found: &mut Vec<Diag>) {
-    let frame = commons.read(loc::HOME_FRAME);
-    if !matches!(frame, HomeFrame::ReferencePoint | HomeFrame::SecondReferencePoint) {
-        return;
-    }
-    if commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress {
-        found.push(contradiction(
-            "home.frame asks for the reference point by G28 or G30, which the language of the \
+    let by_words = commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress;
+    let (is_known, functions) = match commons.read(loc::HOME_FRAME) {
+        HomeFrame::OfThePart | HomeFrame::OfTheMachine => return,
+        HomeFrame::ReferencePoint | HomeFrame::SecondReferencePoint => (by_words, "G28 or G30"),
+        HomeFrame::EndOfTravel => (by_words && osp_lengths::are_meant(commons), "G16 H0"),
+    };
+    if !is_known {
+        found.push(contradiction(format!(
+            "home.frame asks for a point of the machine by {functions}, which the language of the \
              control does not have"
-                .into(),
-        ));
+        )));
     }
     let positions = loc::HOME.into_iter().chain(loc::CHANGE_POSITION).chain([loc::HOME_RETRACT_Z]);
     if positions.filter_map(|at| commons.dbl_opt(at)).any(|position| position != 0.0) {
         found.push(contradiction(
-            "home.frame asks for the reference point, where home.x, y, z, home.retract_z and \
+            "home.frame asks for a point that the control knows, where home.x, y, z, home.retract_z and \
              tool.change_x to tool.change_c are 0 or absent"
                 .into(),
         ));

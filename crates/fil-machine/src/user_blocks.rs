@@ -159,7 +159,7 @@ pub const OWN: [(&str, UserBlocks, &str); 8] = [
     (
         "blocks.turn_after",
         TURN.after,
-        "Behind such a block at rapid; behind the next rapid block where the turn was at feed.",
+        "Behind such a block at rapid and its clamp; behind the next rapid block where the turn was at feed.",
     ),
 ];
 

@@ -58,6 +58,8 @@ pub struct Word {
     pub index: Option<u32>,
     /// What it is given.
     pub number: Number,
+    /// It is given the end of the travel of its axis: `Z=VPSLZ` of an OSP, whose number is no number.
+    pub of_travel: bool,
     /// Where in the line, bytes.
     pub range: Range<usize>,
 }
@@ -210,15 +212,31 @@ impl Scan<'_> {
         let letter = self.text[start].to_ascii_uppercase();
         self.at += 1;
         self.blanks();
+        if let Some(number) = self.end_of_travel(letter) {
+            let range = start..self.at;
+            return Ok(Word { letter, index: None, number, of_travel: true, range });
+        }
         let first = self.number(start)?;
         if self.peek() != Some(b'=') {
-            return Ok(Word { letter, index: None, number: first, range: start..self.at });
+            let range = start..self.at;
+            return Ok(Word { letter, index: None, number: first, of_travel: false, range });
         }
         self.at += 1;
         let index = u32::try_from(first.digits).ok().filter(|_| !first.point);
         let index = index.ok_or_else(|| self.refuse(NcCode::BadNumber, start))?;
         let number = self.number(start)?;
-        Ok(Word { letter, index: Some(index), number, range: start..self.at })
+        Ok(Word { letter, index: Some(index), number, of_travel: false, range: start..self.at })
+    }
+
+    /// `=VPSLZ` behind `Z`: the system variable of an OSP for the positive end of the travel. Where it
+    /// lies no program says.
+    fn end_of_travel(&mut self, letter: u8) -> Option<Number> {
+        let rest = self.text[self.at..].strip_prefix(b"=VPSL")?.strip_prefix(&[letter])?;
+        if rest.first().is_some_and(u8::is_ascii_alphanumeric) {
+            return None;
+        }
+        self.at = self.text.len() - rest.len();
+        Some(Number { digits: 0, minus: false, decimals: 0, whole: 0, point: false })
     }
 
     fn number(&mut self, start: usize) -> Result<Number, Box<Diag>> {

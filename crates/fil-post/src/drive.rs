@@ -158,15 +158,20 @@ fn carry_out(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resul
     }
 }
 
-/// A record between a message or stop and the tool change that it waits for. What switches off may
-/// stand between a stop and the change: the machine stops with spindle and coolant off.
+/// A record between a message or stop and the tool change that it waits for.
 fn stays_before_change(control: &Control, record: &Record) -> bool {
-    const BEFORE_A_CHANGE: [WordId; 8] =
-        [w::PPRINT, w::TPRINT, w::CUTTER, w::LOADTL, w::LOAD, w::TURRET, w::OPSTOP, w::STOP];
-    let switches_off =
-        matches!(record.major, w::SPINDL | w::COOLNT) && record.data[..] == [Word::Minor(w::OFF)];
-    let has_stop = || control.tools.held.iter().any(|(held, _)| matches!(held, Held::Stop(_)));
-    BEFORE_A_CHANGE.contains(&record.major) || (switches_off && has_stop())
+    let has_stop = control.tools.held.iter().any(|(held, _)| matches!(held, Held::Stop(_)));
+    record.takes_tool() || stands_before_change(record, has_stop)
+}
+
+/// A record that may stand between a message, or a stop, and the tool change that it waits for. What
+/// switches off may stand behind a stop: the machine stops with spindle and coolant off.
+pub fn stands_before_change(record: &Record, has_stop: bool) -> bool {
+    match record.major {
+        w::PPRINT | w::TPRINT | w::CUTTER | w::OPSTOP | w::STOP => true,
+        w::SPINDL | w::COOLNT => has_stop && record.data[..] == [Word::Minor(w::OFF)],
+        _ => false,
+    }
 }
 
 /// What a word without effect says all the same: the name of a tool, the frame of the points.

@@ -119,6 +119,8 @@ pub enum Function {
     Dwell,
     /// Axis words of this block are in the machine frame.
     MachineFrame,
+    /// To the ends of the travel of the axes that the block names: `G16 H0` of an OSP.
+    EndOfTravel,
     /// To the reference point.
     Reference,
     /// To the second reference point, or to that of a number.
@@ -199,10 +201,22 @@ impl Function {
             | Function::SpeedLimit
             | Function::Dwell
             | Function::MachineFrame
+            | Function::EndOfTravel
             | Function::AlignTool
             | Function::Reference
             | Function::NumberedReference => Group::Once,
         }
+    }
+
+    /// A motion to a point of the machine, which has no place in the frame of the part.
+    pub fn goes_to_machine(self) -> bool {
+        matches!(
+            self,
+            Function::MachineFrame
+                | Function::EndOfTravel
+                | Function::Reference
+                | Function::NumberedReference
+        )
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use fil_machine::osp_lengths;
+
 use super::Settings;
 use super::codes::{CycleKind, FeedMode, Function};
 use super::tables::RETURNS_BY_LEVEL;
@@ -107,6 +109,9 @@ impl Functions {
         table.add_fixtures(settings);
         if settings.code("tool.length_code").is_some() {
             table.add(Some(49), Function::Length(false));
+        }
+        if osp_lengths::are_meant(settings.0) {
+            table.add(Some(16), Function::EndOfTravel);
         }
         if has_rotary && !lathe && settings.code("tool.length_code") == Some(43) {
             table.0.extend(TIP_CONTROL);

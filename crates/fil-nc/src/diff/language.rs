@@ -47,7 +47,7 @@ fn klartext(line: &[u8], number: u32) -> Block {
         let (text, range) = items.remove(0);
         let digits = text.parse().unwrap_or(0);
         let number = Number { digits, minus: digits < 0, decimals: 0, whole: 1, point: false };
-        block.words.push(Word { letter: b'N', index: None, number, range });
+        block.words.push(Word { letter: b'N', index: None, number, of_travel: false, range });
     }
     let head = items.first().map_or(String::new(), |(text, _)| text.clone());
     let moves = matches!(head.as_str(), "L" | "C" | "CC" | "CR" | "CP" | "CT")
@@ -113,6 +113,7 @@ fn word(letter: u8, text: &str, range: &Range<usize>) -> Option<Word> {
         letter,
         index: None,
         number: exact(value),
+        of_travel: false,
         range: range.clone(),
     })
 }
@@ -150,7 +151,8 @@ fn sinumerik(line: &[u8], name: &str, number: u32) -> Result<Block, Box<Diag>> {
         };
         match (address, &one.value) {
             (Some((letter, index)), Some(Value::Number(value))) => {
-                block.words.push(Word { letter, index, number: exact(*value), range: one.range });
+                let number = exact(*value);
+                block.words.push(Word { letter, index, number, of_travel: false, range: one.range });
             }
             _ => {
                 let text = text.get(one.range.clone()).unwrap_or(&one.name);
@@ -183,7 +185,8 @@ fn sequence_number(text: &str) -> Option<Word> {
         whole: 1,
         point: false,
     };
-    Some(Word { letter: b'N', index: None, number, range: from..from + 1 + digits })
+    let range = from..from + 1 + digits;
+    Some(Word { letter: b'N', index: None, number, of_travel: false, range })
 }
 
 /// True for statements that differ in nothing but numbers within the tolerance.

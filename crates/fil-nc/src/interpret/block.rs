@@ -4,6 +4,7 @@ use fil_machine::effects::Effect;
 
 use super::Fault;
 use super::left_to_control::Uses;
+use super::modes::H;
 use super::state::State;
 use super::words::{AxisWord, Words, letter};
 use crate::dialect::{Amount, Auxiliary, FeedMode, Function, Group, Role};
@@ -146,8 +147,10 @@ impl State<'_> {
                 check_point(words)?;
                 return self.reference(words);
             }
-            Some(Function::MachineFrame) => {
-                words.function(Group::Once);
+            Some(Function::MachineFrame | Function::EndOfTravel) => {
+                if words.function(Group::Once) == Some(Function::EndOfTravel) {
+                    check_machine_zero(words)?;
+                }
                 if self.take_motion(words)?.is_some() {
                     return Err(Fault::new(NcCode::Twice, "a cycle in the machine frame"));
                 }
@@ -339,6 +342,14 @@ impl State<'_> {
 
 /// Dwell units in a second of a control that counts milliseconds.
 const MILLISECONDS: f64 = 1000.0;
+
+/// `H0` of `G16` names the zero of the machine; other numbers are those of work offsets.
+fn check_machine_zero(words: &mut Words) -> Result<(), Fault> {
+    match words.take_whole(H)? {
+        Some(0) => Ok(()),
+        _ => Err(Fault::new(NcCode::NoMeaning, "G16 is known with H0 alone, the machine's zero")),
+    }
+}
 
 /// `P2` to `P4`: the second to the fourth reference point, which is the second without it.
 fn check_point(words: &mut Words) -> Result<(), Fault> {

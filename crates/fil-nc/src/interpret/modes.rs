@@ -136,10 +136,14 @@ impl State<'_> {
                 self.end_tip_control();
             }
             // A tool change may end the function: then H alone is not certain to act.
-            // In a threading cycle H counts passes, or is the height.
+            // In a threading cycle H counts passes, or is the height; beside G16 it is a zero.
             None if matches!(
                 words.peek(Group::Once),
-                Some(Function::ThreadPassesByPitch | Function::ThreadPassesByHeight)
+                Some(
+                    Function::ThreadPassesByPitch
+                        | Function::ThreadPassesByHeight
+                        | Function::EndOfTravel
+                )
             ) => {}
             None if self.modes.length.offset.is_some() && words.has(H) => {
                 let offset = words.take_whole(H)?;

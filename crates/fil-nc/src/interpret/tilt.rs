@@ -186,9 +186,7 @@ impl State<'_> {
                 Function::NumberedFixture(_) => "another work offset",
                 Function::Units { metric } if metric != self.metric => "another unit",
                 Function::TipControl => "TCPC",
-                Function::MachineFrame | Function::Reference | Function::NumberedReference => {
-                    "a point of the machine"
-                }
+                function if function.goes_to_machine() => "a point of the machine",
                 _ => continue,
             };
             let message = format!("{what} in a tilted work plane");

@@ -76,10 +76,7 @@ impl State<'_> {
     }
 
     fn check_end(&self, words: &Words) -> Result<(), Fault> {
-        let elsewhere = matches!(
-            words.peek(Group::Once),
-            Some(Function::MachineFrame | Function::Reference | Function::NumberedReference)
-        );
+        let elsewhere = words.peek(Group::Once).is_some_and(Function::goes_to_machine);
         match words.first_axis(self.dialect) {
             Some(range) if !elsewhere => {
                 let message = "controls differ in where a motion in the block of G49 ends";
@@ -109,9 +106,7 @@ impl State<'_> {
                 Function::Compensation(Compensation::Left | Compensation::Right) => {
                     "cutter compensation"
                 }
-                Function::MachineFrame | Function::Reference | Function::NumberedReference => {
-                    "a point of the machine"
-                }
+                function if function.goes_to_machine() => "a point of the machine",
                 _ => continue,
             };
             return Err(differ(what).at(range));

@@ -165,11 +165,22 @@ impl Words {
                 "an address the machine does not have",
             ));
         };
+        let goes_to_end = self.peek(Group::Once) == Some(Function::EndOfTravel);
+        if word.of_travel != (goes_to_end && dialect.axis(address.letter).is_some()) {
+            let what = match word.of_travel {
+                true => "the end of the travel, which goes with G16 H0",
+                false => "a position of the machine in numbers, which no setting places",
+            };
+            return Err(no_meaning(word.letter, &word.range, what));
+        }
         let item = Item {
             letter: address.letter,
             increment: address.increment,
             number: word.number,
-            value: address.value(word.number, metric),
+            value: match word.of_travel {
+                true => Ok(0.0),
+                false => address.value(word.number, metric),
+            },
             range: word.range.clone(),
         };
         let same = |other: &Item| (other.letter, other.increment) == (item.letter, item.increment);

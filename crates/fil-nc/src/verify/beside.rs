@@ -105,13 +105,24 @@ impl<C: Steps> Verifier<'_, C> {
         // The machine's own blocks may stand before it or after it.
         let last = self.last_line();
         self.pass_own();
-        let next = self.nc.get(self.next).map_or(u32::MAX, |event| event.line());
+        let [_, next] = self.lines_here();
         self.auxiliaries.ask(code, cl_line, [last, next]);
     }
 
-    /// A stop right before a tool change that stops there anyway is that one; before anything else
-    /// it stands by itself.
-    pub(super) fn settle_held_stop(&mut self, next: &ExpectedStep) {
+    /// The lines of the events that have come and come next; motions that stand still may belong to
+    /// either side.
+    pub(super) fn lines_here(&self) -> [u32; 2] {
+        let is_still = |event: &Event| matches!(event, Event::Move(found) if self.is_still(found));
+        let next = self.nc.from(self.next).find(|event| !is_still(event));
+        [self.last_line(), next.map_or(u32::MAX, |event| event.line())]
+    }
+
+    /// A stop right before a tool change that stops there anyway is that one, and one before a change by
+    /// hand is that of the operator; before anything else it stands by itself.
+    pub(super) fn settle_held_stops(&mut self, next: &ExpectedStep) {
+        if self.memory.held_stops.is_empty() {
+            return;
+        }
         let waits = matches!(
             next,
             ExpectedStep::Cutter(_)
@@ -120,17 +131,27 @@ impl<C: Steps> Verifier<'_, C> {
                 | ExpectedStep::Spindle(Some(Spindle::Off))
                 | ExpectedStep::Coolant(CoolantKind::Off)
         );
-        let Some(cl_line) = self.memory.held_stop.take_if(|_| !waits) else { return };
-        let stops_there = match next {
-            ExpectedStep::Tool { number, offset, by_hand } => {
-                let offset = self.settings.tool_offset(*number, *offset);
-                let changes = *by_hand || self.blocks.changes > 0;
-                changes && !self.keeps_tool(*number, offset)
+        if waits {
+            return;
+        }
+        let has_changed = self.blocks.changes > 0;
+        let changes = match next {
+            ExpectedStep::Tool { number, offset, .. } => {
+                !self.keeps_tool(*number, self.settings.tool_offset(*number, *offset))
             }
             _ => false,
         };
-        if !stops_there {
-            self.ask_auxiliary(cl_line, self.settings.stop_at_change());
+        let taken = |code: u32| match next {
+            ExpectedStep::Tool { by_hand: true, .. } => changes,
+            ExpectedStep::Tool { .. } => {
+                changes && has_changed && self.settings.stop_at_change() == Some(code)
+            }
+            _ => false,
+        };
+        let mut stops = std::mem::take(&mut self.memory.held_stops);
+        stops.retain(|(_, code)| !taken(*code));
+        for (cl_line, code) in stops {
+            self.ask_auxiliary(cl_line, Some(code));
         }
     }
 

@@ -121,10 +121,7 @@ impl<C: Steps> Verifier<'_, C> {
         if self.settings.change_position(self.limits.metric) != [None; 5] {
             self.go_to_change_position(cl_line);
         }
-        // Motions that stand still may belong to either tool.
-        let is_still = |event: &Event| matches!(event, Event::Move(found) if self.is_still(found));
-        let next = self.nc.from(self.next).find(|event| !is_still(event));
-        let lines = [self.last_line(), next.map_or(u32::MAX, |event| event.line())];
+        let lines = self.lines_here();
         if let Some(code) = self.settings.stop_code(false) {
             self.auxiliaries.ask(code, cl_line, lines);
         }

@@ -180,9 +180,9 @@ impl<'a, C: Steps> Verifier<'a, C> {
     fn carry_out(&mut self, step: &Step) {
         // A text may ask which event came before.
         self.nc.forget(self.next.saturating_sub(1));
+        self.settle_held_stops(&step.what);
         let offset = self.expected.fixture.must;
         self.expected.take(&step.what, self.settings);
-        self.settle_held_stop(&step.what);
         match &step.what {
             ExpectedStep::WorkOffset(_) if offset != self.expected.fixture.must => {
                 self.go_up_for_offset(step.line);
@@ -256,10 +256,7 @@ impl<'a, C: Steps> Verifier<'a, C> {
             }
             ExpectedStep::Stop { optional } => {
                 let code = self.settings.stop_code(*optional);
-                match code.is_some() && code == self.settings.stop_at_change() {
-                    true => self.memory.held_stop = Some(step.line),
-                    false => self.ask_auxiliary(step.line, code),
-                }
+                self.memory.held_stops.extend(code.map(|code| (step.line, code)));
             }
             ExpectedStep::OverrideLock(on) => {
                 self.ask_auxiliary(step.line, self.settings.override_lock(*on))

@@ -3,19 +3,22 @@
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 use fil_machine::commons::EMPTY;
-use fil_machine::letters::{D, UVW, XYZ};
+use fil_machine::letters::{D, G, H, UVW, XYZ};
 use fil_machine::locations::{self as loc, HomeFrame, HomeLatheOrder};
 use fil_machine::{FunctionCode, Letter};
 
 use super::{Control, full_turn};
 use crate::cause::Cause;
 use crate::control::needs::Act;
-use crate::control_state::MachineSpot;
+use crate::control_state::{MachineSpot, Source, modal};
 use crate::errors::PostCode;
 use crate::operation::motion::Motion;
 
 /// The axes of the block go where they say in the frame of the machine.
 const MACHINE: FunctionCode = FunctionCode::whole(53);
+
+/// An OSP: axis words of the block count from the zero of the machine, which H0 names.
+const TO_END_OF_TRAVEL: FunctionCode = FunctionCode::whole(16);
 
 /// True for a machine whose home, retract and change positions are its own coordinates, or its
 /// reference point.
@@ -30,12 +33,13 @@ fn of_increments(control: &Control, axis: Letter) -> Option<Letter> {
     reference(control).filter(|_| is_lathe).map(|_| UVW[number])
 }
 
-/// The function that goes to the reference point, where home is that.
+/// The function that goes to a point that the control knows, where home is that.
 fn reference(control: &Control) -> Option<FunctionCode> {
     match control.commons.read(loc::HOME_FRAME) {
         HomeFrame::OfThePart | HomeFrame::OfTheMachine => None,
         HomeFrame::ReferencePoint => Some(FunctionCode::whole(28)),
         HomeFrame::SecondReferencePoint => Some(FunctionCode::whole(30)),
+        HomeFrame::EndOfTravel => Some(TO_END_OF_TRAVEL),
     }
 }
 
@@ -162,6 +166,21 @@ fn to_reference(control: &mut Control, function: FunctionCode) -> Result<()> {
     control.write_block()
 }
 
+/// Writes the block under construction as a rapid motion to the positive ends of the travel, which
+/// system variables of an OSP name: `G16 H0 G0 Z=VPSLZ`.
+fn to_end_of_travel(control: &mut Control) -> Result<()> {
+    let rapid = control.code(loc::RAPID_CODE_Z, "rapid move")?;
+    let axes = control.block.take().words(&control.tables.addresses);
+    let functions = [(G, TO_END_OF_TRAVEL), (H, FunctionCode::whole(0)), (G, rapid)];
+    let functions = functions.map(|(letter, code)| format!("{letter}{code}"));
+    let axes = axes.into_iter().map(|(letter, ..)| format!("{letter}=VPSL{letter}"));
+    let words: Vec<_> = functions.into_iter().chain(axes).collect();
+    let between = if control.tables.addresses.blank { " " } else { "" };
+    control.write_line(&words.join(between), true)?;
+    control.state.forget(modal::MOTION, Source::Post);
+    Ok(())
+}
+
 /// Writes the block under construction as a rapid motion to a position of the machine by its
 /// function (G53), and ends the length of the cutting edge in it (D0). To the reference point it
 /// goes straight, by an increment of 0 (`G28 G91 Z0.`).
@@ -169,8 +188,10 @@ fn to_reference(control: &mut Control, function: FunctionCode) -> Result<()> {
 /// # Errors
 /// The machine has no code for rapid motions, or none for increments.
 pub(super) fn by_code(control: &mut Control, ends_edge: bool) -> Result<()> {
-    if let Some(function) = reference(control) {
-        return to_reference(control, function);
+    match reference(control) {
+        Some(TO_END_OF_TRAVEL) => return to_end_of_travel(control),
+        Some(function) => return to_reference(control, function),
+        None => {}
     }
     let code = control.code(loc::RAPID_CODE_Z, "rapid move")?;
     control.g(MACHINE);

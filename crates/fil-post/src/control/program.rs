@@ -457,6 +457,9 @@ fn retract_note(control: &Control) -> String {
         (Some(_), HomeFrame::SecondReferencePoint) => {
             "RETRACT BY G30: SET THAT POINT CLEAR OF THE PART".to_string()
         }
+        (Some(_), HomeFrame::EndOfTravel) => {
+            "RETRACT BY G16 H0 TO THE END OF THE TRAVEL".to_string()
+        }
     }
 }
 

@@ -367,11 +367,11 @@ impl Control {
         self.state.compensates() || self.compensation_asked() != Compensation::Off
     }
 
-    /// Writes a comment, which the control does not read.
+    /// Writes a line that is no block of words: a comment, or what its writer keeps account of.
     ///
     /// # Errors
     /// As [`Control::write_text`].
-    pub fn write_comment(&mut self, text: &str, numbered: bool) -> Result<()> {
+    pub fn write_line(&mut self, text: &str, numbered: bool) -> Result<()> {
         self.begin()?;
         self.require(Act::Block)?;
         texts::check(text)?;

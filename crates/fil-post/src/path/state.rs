@@ -181,6 +181,8 @@ pub struct LookAhead {
     pub tool: ToolAhead,
     /// The motions behind a RAPID.
     pub motions: Vec<Coming>,
+    /// A tool change by hand comes right behind a STOP.
+    pub change_by_hand: bool,
 }
 
 /// What tells which way arcs turn.

@@ -26,10 +26,12 @@ pub fn opstop(post: &mut Post, items: &mut Items) -> Result<()> {
     make(post, Stop::Optional)
 }
 
-/// Stops, or leaves the stop to a tool change right behind it, where the machine stops there anyway.
+/// Stops, or leaves the stop to a tool change right behind it, where the machine or its operator stops
+/// there anyway.
 fn make(post: &mut Post, stop: Stop) -> Result<()> {
+    let waits_for_operator = std::mem::take(&mut post.path.ahead.change_by_hand);
     let control = &mut post.control;
-    if way_home::stops_at_change(control) == Some(stop) {
+    if waits_for_operator || way_home::stops_at_change(control) == Some(stop) {
         control.tools.held.push((Held::Stop(stop), control.block.cause.whole()));
         return Ok(());
     }

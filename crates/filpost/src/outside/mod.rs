@@ -16,6 +16,7 @@ use fil_cl::{Evidence, Record, Vocabulary, record::kind};
 use fil_diag::Diag;
 use fil_machine::locations::{INPUT_CREO_RECORDS, PROGRAM_TIME_STAMP, PROGRAM_TOOL_LIST};
 use fil_machine::{Kind, Unit};
+use fil_post::stands_before_change;
 use fil_vm::{Host, Module, SectionId};
 
 use crate::blocks::Block;
@@ -35,6 +36,9 @@ use crate::source::{Source, Stream};
 use crate::spilled::Spilled;
 use crate::tally::Tally;
 use crate::units;
+
+/// Records behind a STOP, at most, before the tool change by hand that it waits for.
+const STOP_AHEAD: usize = 8;
 
 /// What a FIL machine reaches while it runs: reader and post.
 pub(crate) struct Outside<'o, 'r> {
@@ -217,8 +221,8 @@ impl<'o, 'r> Outside<'o, 'r> {
         if is_note { None } else { self.module.find(record, vocabulary) }
     }
 
-    /// Tells the post which tools come behind a record that takes one, and which tool axes
-    /// behind a RAPID, where its machine asks for it.
+    /// Tells the post which tools come behind a record that takes one, and which tool axes behind a
+    /// RAPID, where its machine asks for it; and whether a STOP is that of a tool change by hand.
     ///
     /// # Errors
     /// A file that can't be gone back in.
@@ -243,10 +247,27 @@ impl<'o, 'r> Outside<'o, 'r> {
         if record.takes_tool() {
             return self.look_for_tools(record, vocabulary);
         }
-        if record.major == words::RAPID {
-            self.look_for_axes(vocabulary);
+        match record.major {
+            words::RAPID => self.look_for_axes(vocabulary),
+            words::STOP | words::OPSTOP => {
+                self.post.path.ahead.change_by_hand = self.looks_at_change_by_hand(vocabulary);
+            }
+            _ => {}
         }
         Ok(())
+    }
+
+    /// True where a stop at hand is that of a tool change by hand.
+    #[cold]
+    fn looks_at_change_by_hand(&mut self, vocabulary: &mut Vocabulary) -> bool {
+        for index in 0..STOP_AHEAD {
+            match self.source.ahead(index, vocabulary) {
+                Ok(Some(next)) if next.takes_tool() => return next.has(words::MANUAL),
+                Ok(Some(next)) if next.inert || stands_before_change(next, true) => {}
+                _ => return false,
+            }
+        }
+        false
     }
 
     #[cold]

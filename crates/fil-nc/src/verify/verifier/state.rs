@@ -102,8 +102,8 @@ pub(in super::super) struct StepMemory {
     pub(in super::super) initial: Option<f64>,
     /// From the directions of the hole, in which its moves are written.
     pub(in super::super) from_hole: Option<FromHole>,
-    /// The record of a stop that a tool change right behind it makes.
-    pub(in super::super) held_stop: Option<u32>,
+    /// Stops whose next record is not known: lines of the CL file, and their codes.
+    pub(in super::super) held_stops: Vec<(u32, u32)>,
     /// The program begins again with a later operation: what those before it have switched on is
     /// not in force at its tool change.
     pub(in super::super) begins_again: bool,

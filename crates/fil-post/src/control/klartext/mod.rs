@@ -164,7 +164,7 @@ fn message(control: &mut Control, text: &str) -> Result<()> {
     }
     for part in clean.chunks(longest) {
         let part: String = part.iter().collect();
-        control.write_comment(&format!("; {}", part.trim_end()), true)?;
+        control.write_line(&format!("; {}", part.trim_end()), true)?;
     }
     Ok(())
 }

@@ -174,7 +174,7 @@ fn message(control: &mut Control, text: &str) -> Result<()> {
         let part: String = part.iter().collect();
         let part = part.trim_end();
         let line = if on_screen { format!("MSG(\"{part}\")") } else { format!("; {part}") };
-        control.write_comment(&line, numbered)?;
+        control.write_line(&line, numbered)?;
     }
     Ok(())
 }

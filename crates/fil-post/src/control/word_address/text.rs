@@ -67,7 +67,7 @@ fn say_what_it_counts_on(control: &mut Control, words: &[(Letter, f64)]) -> Resu
 /// the machine's longest message.
 ///
 /// # Errors
-/// As [`Control::write_comment`].
+/// As [`Control::write_line`].
 pub fn message(control: &mut Control, text: &str) -> Result<()> {
     let marks = MessageMarks::of(control);
     let longest = control.commons.int(loc::MESSAGE_MAX_CHARS).clamp(1, 120) as usize;
@@ -91,7 +91,7 @@ pub fn message(control: &mut Control, text: &str) -> Result<()> {
             with_mark = format!("{part}{mark}");
             part = &with_mark;
         }
-        control.write_comment(&marks.enclose(part), numbered)?;
+        control.write_line(&marks.enclose(part), numbered)?;
         rest = left;
     }
     Ok(())
