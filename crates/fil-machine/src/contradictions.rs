@@ -22,7 +22,8 @@ use crate::full_turn;
 use crate::input_matrix::{FLAT, input_matrix};
 use crate::letter::{self, Letter};
 use crate::locations::{
-    self as loc, ControlFamily, ControlTranslation, HomeFrame, ToolChangeBlock, ToolFormat,
+    self as loc, ControlFamily, ControlTranslation, HomeFrame, RotaryFrameForm, ToolChangeBlock,
+    ToolFormat,
 };
 use crate::mill_turn;
 use crate::osp_lengths;
@@ -81,6 +82,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     prepared_tools(commons, &mut found);
     frame_of_machine(commons, &mut found);
     reference_points(commons, &mut found);
+    frame_without_angles(commons, &mut found);
     tools_in_one_word(commons, &mut found);
     found
 }
@@ -393,6 +395,18 @@ fn reference_points(commons: &Commons, found: &mut Vec<Diag>) {
         found.push(contradiction(
             "home.frame asks for a point that the control knows, where home.x, y, z, home.retract_z and \
              tool.change_x to tool.change_c are 0 or absent"
+                .into(),
+        ));
+    }
+}
+
+/// Klartext and a SINUMERIK say a tilted work plane by its angles.
+fn frame_without_angles(commons: &Commons, found: &mut Vec<Diag>) {
+    let by_words = commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress;
+    if !by_words && commons.read(loc::ROTARY_FRAME_FORM) != RotaryFrameForm::Angles {
+        found.push(contradiction(
+            "rotary.frame_form asks for a tilted work plane without angles, which the language of \
+             the control does not have"
                 .into(),
         ));
     }

@@ -84,6 +84,8 @@ pub mod letters {
     pub const M: Letter = Letter::of(b'M');
     /// Sequence number.
     pub const N: Letter = Letter::of(b'N');
+    /// A number beside a function: a dwell, a work offset, a spindle.
+    pub const P: Letter = Letter::of(b'P');
     /// Radius, and the R level of a canned cycle.
     pub const R: Letter = Letter::of(b'R');
     /// Spindle speed.

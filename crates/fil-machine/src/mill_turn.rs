@@ -93,6 +93,10 @@ fn check_transformations(commons: &Commons) -> Result<()> {
              (transformations = 1 is TRANSMIT and TRACYL)",
         );
     }
+    let selects = commons.int_opt(loc::SPINDLE_SELECT_NUMBER).is_some();
+    if selects || commons.read(loc::MILL_TURN_LIVE_SPEED_ADDRESS).is_some() {
+        return refuse("a SINUMERIK has S for each spindle, and none is selected by P");
+    }
     if live_spindle.is_some_and(|number| !(2..=99).contains(&number)) {
         return refuse("live_spindle is the number of another spindle than the first");
     }
@@ -175,6 +179,10 @@ pub(crate) fn check(commons: &Commons) -> Result<()> {
     let missing = codes.iter().find(|(at, _)| commons.read(*at).is_none());
     if let Some((_, name)) = missing {
         return refuse(&format!("{name} is not there"));
+    }
+    let selects = [loc::SPINDLE_SELECT_NUMBER, loc::MILL_TURN_LIVE_SELECT_NUMBER];
+    if selects.map(|at| commons.int_opt(at).is_some()) == [false, true] {
+        return refuse("live_select_number needs the P of the main spindle, spindle.select_number");
     }
     let drills = CYCLE_CODES.iter().any(|at| commons.read(*at).is_some());
     if drills && commons.read(loc::CYCLE_OFF_CODE).is_none() {

@@ -21,7 +21,7 @@ use crate::words::end;
 use fil_cl::layout::is_alias;
 use fil_cl::record::kind;
 use fil_cl::vocabulary::{Vocabulary, words as w};
-use fil_cl::{Record, Word, WordId, operation_sign};
+use fil_cl::{Record, Word, operation_sign};
 use fil_diag::{Diag, Result};
 use fil_machine::Commons;
 use nalgebra::{Point3, Vector3};

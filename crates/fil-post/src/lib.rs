@@ -46,8 +46,8 @@ pub mod tape;
 pub mod warnings;
 pub mod words;
 
-pub use drive::stands_before_change;
 pub use cause::{Cause, FilLine, Origin, Stack, Stacks};
+pub use drive::stands_before_change;
 pub use noted::{BlockInfo, DueTo, Noted, WordInfo};
 pub use post::{Post, WaitsForMotion};
 

@@ -37,6 +37,11 @@ const RULES: &[Rule] = &[
     },
     Rule { at: loc::SPINDLE_ORIENT_ADDRESS, what: "the angle of the spindle", taken: b"FGMNOTXYZ" },
     Rule { at: loc::SPINDLE_MAX_ADDRESS, what: "the limit of the speed", taken: b"FGMNOSTXYZ" },
+    Rule {
+        at: loc::MILL_TURN_LIVE_SPEED_ADDRESS,
+        what: "the speed of the live tool",
+        taken: b"FGMNOTXYZ",
+    },
     Rule { at: loc::THREAD_LEAD_ADDRESS, what: "the lead of a thread", taken: OF_THREADS },
     Rule { at: loc::THREAD_CHANGE_ADDRESS, what: "the growth of a lead", taken: OF_THREADS },
     Rule { at: loc::THREAD_TAPER_ADDRESS, what: "the taper of a thread", taken: OF_THREADS },

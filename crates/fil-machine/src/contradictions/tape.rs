@@ -5,6 +5,7 @@ use fil_diag::Diag;
 use fil_text::CodePage;
 
 use super::contradiction;
+use crate::address::Addresses;
 use crate::commons::Commons;
 use crate::errors::MachineCode;
 use crate::letter::Letter;
@@ -15,7 +16,7 @@ use crate::setting::CharacterAt;
 /// comment or block skip has them.
 const FREE: &str = "!$&*?@\\^_`|~";
 
-/// Characters of a line before or after the program. Letters and digits would be words,
+/// Characters of a line before or after the program. Letters of the tape and digits would be words,
 /// parentheses comments.
 const LINES: &[(CharacterAt, &str)] = &[
     (loc::TAPE_START_CHAR, "tape.start_char"),
@@ -55,8 +56,15 @@ fn means_something_else(name: &str, mark: char) -> Diag {
 }
 
 fn lines(commons: &Commons, found: &mut Vec<Diag>) {
+    let addresses = Addresses::from_commons(commons, true);
+    let is_free = |mark: char| {
+        let letter = u8::try_from(mark).ok().filter(u8::is_ascii_uppercase).map(Letter::of);
+        letter.is_some_and(|letter| addresses.position(letter).is_none())
+    };
     for (at, name) in LINES {
-        let is_no_mark = |mark: &char| mark.is_alphanumeric() || "()[]{}\"'.+-#=".contains(*mark);
+        let is_no_mark = |mark: &char| {
+            mark.is_alphanumeric() && !is_free(*mark) || "()[]{}\"'.+-#=".contains(*mark)
+        };
         if let Some(mark) = commons.read(*at).filter(is_no_mark) {
             found.push(means_something_else(name, mark));
         }

@@ -119,6 +119,8 @@ pub enum Function {
     Dwell,
     /// Axis words of this block are in the machine frame.
     MachineFrame,
+    /// A tilted frame as the rotary axes stand: G254 of a Haas.
+    TiltByAxes,
     /// To the ends of the travel of the axes that the block names: `G16 H0` of an OSP.
     EndOfTravel,
     /// To the reference point.
@@ -188,7 +190,7 @@ impl Function {
             Function::Length(_) | Function::TipControl | Function::TipControlByDirection => {
                 Group::Length
             }
-            Function::Tilt | Function::TiltOff => Group::Tilt,
+            Function::Tilt | Function::TiltByAxes | Function::TiltOff => Group::Tilt,
             Function::Polar(_) | Function::Cylinder => Group::Interpolation,
             Function::Fixture(_) | Function::NumberedFixture(_) => Group::Fixture,
             Function::Surface(_) => Group::Surface,

@@ -137,8 +137,12 @@ impl Functions {
     /// Tilted frames: those that the settings name, and the usual ones.
     fn add_tilts(&mut self, settings: &Settings) {
         let code = |key, usual: i64| settings.code(key).map_or(usual, i64::from);
+        let frame = match settings.code("rotary.frame_form") {
+            Some(1) => Function::TiltByAxes,
+            _ => Function::Tilt,
+        };
         let tilts = [
-            (code("rotary.frame_code", 682), Function::Tilt),
+            (code("rotary.frame_code", 682), frame),
             (code("rotary.frame_align_code", 531), Function::AlignTool),
             (code("rotary.frame_cancel_code", 69) * 10, Function::TiltOff),
         ];

@@ -14,6 +14,8 @@ const NUMBER: u8 = b'N';
 pub(crate) struct Marks {
     skip: Option<u8>,
     end: Option<u8>,
+    /// A letter that stands alone in the last line, in place of `%`.
+    last: Option<u8>,
     align: Option<u8>,
     leader: Option<u8>,
     /// What opens and closes a message in place of parentheses.
@@ -31,6 +33,7 @@ impl Marks {
         Marks {
             skip: mark("tape.opskip_char").filter(|mark| *mark != SKIP),
             end: mark("tape.end_of_block_char").filter(|_| has("tape.end_of_block", 2)),
+            last: mark("tape.end_char").filter(u8::is_ascii_uppercase),
             align: mark("tape.align_char").filter(|_| has("seqno.align", 1)),
             leader: mark("tape.leader_char").filter(|_| leads),
             message: match (mark("message.out_char"), mark("message.in_char")) {
@@ -42,8 +45,12 @@ impl Marks {
 
     /// A line with the marks that the reader of blocks knows; bytes keep their places.
     pub(crate) fn read<'t>(&self, line: &'t [u8]) -> Cow<'t, [u8]> {
-        if let Marks { skip: None, end: None, align: None, leader: None, message: None } = self {
+        let Marks { skip, end, last, align, leader, message } = self;
+        if [skip, end, last, align, leader].iter().all(|mark| mark.is_none()) && message.is_none() {
             return Cow::Borrowed(line);
+        }
+        if last.is_some_and(|last| *line == [last]) {
+            return Cow::Borrowed(b"%");
         }
         let is_leader = |leader: u8| !line.is_empty() && line.iter().all(|byte| *byte == leader);
         if self.leader.is_some_and(is_leader) {
@@ -92,6 +99,7 @@ mod tests {
         let marks = Marks {
             skip: Some(b'*'),
             end: Some(b'$'),
+            last: Some(b'E'),
             align: Some(b':'),
             leader: Some(b'.'),
             message: Some(*b"[]"),
@@ -102,6 +110,7 @@ mod tests {
             ("N20 X1.", "N20 X1."),
             ("G1 X1. (COST 5$)$", "G1 X1. (COST 5$)"),
             ("....", ""),
+            ("E", "%"),
             ("N5 [TURN (ALL) PARTS] M0", "N5 (TURN  ALL  PARTS) M0"),
         ] {
             assert_eq!(marks.read(line.as_bytes()), read.as_bytes(), "{line}");

@@ -32,10 +32,12 @@ pub(crate) enum Role {
     SpeedLimit,
     /// Angle of an oriented spindle.
     Orientation,
+    /// Speed of the live tool.
+    LiveSpeed,
 }
 
 /// The setting of each letter.
-const LETTERS: [(Role, &str); 13] = [
+const LETTERS: [(Role, &str); 14] = [
     (Role::Radius, "circle.radius_address"),
     (Role::Step, "cycle.step_address"),
     (Role::CycleDwell, "cycle.dwell_address"),
@@ -49,6 +51,7 @@ const LETTERS: [(Role, &str); 13] = [
     (Role::ThreadCount, "thread.count_address"),
     (Role::SpeedLimit, "spindle.max_address"),
     (Role::Orientation, "spindle.orient_address"),
+    (Role::LiveSpeed, "mill_turn.live_speed_address"),
 ];
 
 /// Letters (1 to 26) by their roles; 0 for a word that the machine lacks.

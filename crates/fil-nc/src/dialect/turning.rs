@@ -11,8 +11,11 @@ pub(crate) struct Turning {
     /// The codes that make the main spindle an axis and a spindle again.
     pub(crate) mode_codes: [Option<i32>; 2],
     /// One code turns the main spindle and the live tool, whichever is in use: by clockwise,
-    /// counterclockwise and stop.
+    /// counterclockwise and stop. Not where P selects the spindle.
     pub(crate) one_code: [bool; 3],
+    /// P of the blocks that turn or stop the main spindle and the live tool, where P selects the
+    /// spindle.
+    pub(crate) selects: Option<[Option<i32>; 2]>,
     /// What the cycles of live tools do with pecks.
     pub(crate) live_pecks: LivePecks,
     /// M codes by which threading cycles leave a thread; `None` for a machine without.
@@ -23,6 +26,7 @@ pub(crate) struct Turning {
 
 impl Turning {
     pub(super) fn new(settings: &Settings) -> Self {
+        let main = settings.code("spindle.select_number");
         Turning {
             live_at_start: settings
                 .code("mill_turn.milling_code")
@@ -31,8 +35,9 @@ impl Turning {
                 .map(|mode| settings.code(&format!("mill_turn.{mode}_code"))),
             one_code: ["cw", "ccw", "stop"].map(|turn| {
                 let code = |of: &str| settings.code(&format!("{of}{turn}_code"));
-                code("mill_turn.live_") == code("spindle.")
+                code("mill_turn.live_") == code("spindle.") && main.is_none()
             }),
+            selects: main.map(|main| [Some(main), settings.code("mill_turn.live_select_number")]),
             live_pecks: LivePecks::new(settings),
             way_out: WayOut::new(settings),
             counted: Counted::new(settings),

@@ -152,7 +152,13 @@ fn sinumerik(line: &[u8], name: &str, number: u32) -> Result<Block, Box<Diag>> {
         match (address, &one.value) {
             (Some((letter, index)), Some(Value::Number(value))) => {
                 let number = exact(*value);
-                block.words.push(Word { letter, index, number, of_travel: false, range: one.range });
+                block.words.push(Word {
+                    letter,
+                    index,
+                    number,
+                    of_travel: false,
+                    range: one.range,
+                });
             }
             _ => {
                 let text = text.get(one.range.clone()).unwrap_or(&one.name);

@@ -7,10 +7,10 @@
 //! under G1, names its radius by the word of the rotary axis, and 0 ends it.
 
 use super::state::{Axes, State};
-use super::words::{AxisWord, Words};
+use super::words::{AxisWord, Words, letter};
 use super::{Fault, refuse};
-use crate::dialect::{Amount, FeedMode, Function, Group};
-use crate::motion::{Compensation, Course, Event, Spindle};
+use crate::dialect::{Amount, Auxiliary, FeedMode, Function, Group, Role};
+use crate::motion::{Compensation, Course, Event, Speed, Spindle};
 
 /// Number of the axis C.
 const C: usize = 3;
@@ -50,6 +50,41 @@ impl State<'_> {
             (false, _) => return refuse("a live tool turns while the main spindle is no axis"),
         }
         Ok(())
+    }
+
+    /// The speed of a live tool that has a letter of its own, beside its code.
+    pub(super) fn live_speed(&mut self, words: &mut Words) -> Result<(), Fault> {
+        let letter = self.dialect.letter(Role::LiveSpeed);
+        let turns = |auxiliary: &Auxiliary| {
+            matches!(auxiliary, Auxiliary::Live(Spindle::Clockwise | Spindle::Counterclockwise))
+        };
+        if letter == 0 || !words.auxiliaries.iter().any(|(auxiliary, _)| turns(auxiliary)) {
+            return Ok(());
+        }
+        match words.take(letter)? {
+            Some(speed) => self.modes.spindle.speed = Some(Speed::Turns(speed)),
+            None => return refuse("a live tool turns without its speed"),
+        }
+        Ok(())
+    }
+
+    /// True where P of a block that turns or stops a spindle selects the live tool.
+    pub(super) fn selects_live_tool(&self, words: &mut Words) -> Result<bool, Fault> {
+        let Some([main, live]) = self.dialect.turning.selects else { return Ok(false) };
+        let turns = |auxiliary: &Auxiliary| {
+            use Auxiliary::{Clockwise, Counterclockwise, SpindleOff};
+            matches!(auxiliary, Clockwise | Counterclockwise | SpindleOff)
+        };
+        if !words.auxiliaries.iter().any(|(auxiliary, _)| turns(auxiliary)) {
+            return Ok(false);
+        }
+        let selected =
+            words.take_whole(letter(b'P'))?.and_then(|number| i32::try_from(number).ok());
+        match selected {
+            Some(_) if selected == live => Ok(true),
+            Some(_) if selected == main => Ok(false),
+            _ => refuse("P of this block selects no spindle"),
+        }
     }
 
     /// A code of the main spindle while it is an axis: the same code may turn the live tool.

@@ -186,10 +186,19 @@ impl State<'_> {
                 false => Speed::Turns(speed),
             });
         }
+        self.live_speed(words)?;
         self.tool(words)?;
         self.check_choice(words)?;
+        let of_live_tool = self.selects_live_tool(words)?;
         for (auxiliary, _) in &words.auxiliaries {
             match auxiliary {
+                Auxiliary::Clockwise if of_live_tool => {
+                    self.turn_live_tool(Spindle::Clockwise)?;
+                }
+                Auxiliary::Counterclockwise if of_live_tool => {
+                    self.turn_live_tool(Spindle::Counterclockwise)?;
+                }
+                Auxiliary::SpindleOff if of_live_tool => self.turn_live_tool(Spindle::Off)?,
                 Auxiliary::Counts(side) => self.count(*side)?,
                 Auxiliary::Side(turn) => self.turn_one(true, *turn),
                 Auxiliary::CAxis(on, code) => self.change_spindle(*on, *code)?,

@@ -74,3 +74,92 @@ proptest! {
         }
     }
 }
+
+/// Whether a program is read on the machine that these settings make of a usual one.
+fn is_read(base: Commons, settings: &[&str], text: &str) -> bool {
+    let mut commons = base;
+    for setting in settings {
+        apply_setting(&mut commons, setting).unwrap();
+    }
+    let program = format!("%\nO1\nG90 G94 G17 G21\n{text}\nM30\n%\n");
+    events(program.as_bytes(), "test", &Dialect::new(&commons).unwrap()).is_ok()
+}
+
+#[test]
+fn an_osp_goes_to_the_end_of_the_travel_by_its_name_alone() {
+    for (block, read) in [
+        ("G16 H0 G0 Z=VPSLZ", true),
+        ("G16H0G0Z=VPSLZ", true),
+        ("G16 H0 G0 Z0.", false),
+        ("G16 H1 G0 Z=VPSLZ", false),
+        ("G16 G0 Z=VPSLZ", false),
+        ("G16 H0 G0 Z=VPSLX", false),
+        ("G0 Z=VPSLZ", false),
+    ] {
+        assert_eq!(is_read(default_commons(), &["tool.length_code=56"], block), read, "{block}");
+        assert!(!is_read(default_commons(), &[], block), "{block}");
+    }
+}
+
+#[test]
+fn p_selects_the_spindle_of_a_block() {
+    let settings = [
+        "rotary.primary_kind=1",
+        "rotary.primary_axis=3",
+        "rotary.primary_k=1",
+        "spindle.select_number=11",
+        "mill_turn.milling_code=35",
+        "mill_turn.turning_code=34",
+        "mill_turn.live_cw_code=3",
+        "mill_turn.live_ccw_code=4",
+        "mill_turn.live_stop_code=5",
+        "mill_turn.live_select_number=12",
+    ];
+    for (blocks, read) in [
+        ("G97 S800 M3 P11\nM5 P11", true),
+        ("G97 S800 M3 P11\nM5 P11\nM35\nG97 S2000 M3 P12\nM5 P12\nM34", true),
+        ("G97 S800 M3", false),
+        ("G97 S800 M3 P13", false),
+        ("G97 S800 M3 P12", false),
+        ("M35\nG97 S2000 M3 P11", false),
+    ] {
+        assert_eq!(is_read(lathe(), &settings, blocks), read, "{blocks}");
+    }
+}
+
+#[test]
+fn a_live_tool_needs_its_own_speed() {
+    let settings = [
+        "rotary.primary_kind=1",
+        "rotary.primary_axis=3",
+        "rotary.primary_k=1",
+        "mill_turn.milling_code=154",
+        "mill_turn.turning_code=155",
+        "mill_turn.live_cw_code=133",
+        "mill_turn.live_ccw_code=134",
+        "mill_turn.live_stop_code=135",
+        "mill_turn.live_speed_address=P",
+    ];
+    for (blocks, read) in [
+        ("M154\nG97 P2000 M133\nM135\nM155", true),
+        ("M154\nG97 M133", false),
+        ("M154\nG97 S2000 M133", false),
+        ("G97 P2000 M133", false),
+    ] {
+        assert_eq!(is_read(lathe(), &settings, blocks), read, "{blocks}");
+    }
+}
+
+#[test]
+fn a_frame_without_angles_needs_to_know_where_the_rotary_axes_stand() {
+    let settings =
+        ["rotary.frame_form=1", "rotary.frame_code=2540", "rotary.frame_cancel_code=255"];
+    for (blocks, read) in [
+        ("G0 A-10. C-60.\nG254\nX1. Y2.\nG255", true),
+        ("G0 A-10.\nG254", false),
+        ("G0 A-10. C-60.\nG254\nA0.", false),
+        ("G0 A-10. C-60.\nG254 X1.", false),
+    ] {
+        assert_eq!(is_read(five_axes(), &settings, blocks), read, "{blocks}");
+    }
+}

@@ -55,6 +55,11 @@ impl State<'_> {
                 self.begin_tilt(Tilt { turn, origin })?;
                 self.head.aligned = false;
             }
+            Some(Function::TiltByAxes) => {
+                let turn = self.turn_of_axes()?;
+                self.begin_tilt(Tilt { turn, origin: Point3::origin() })?;
+                self.head.aligned = true;
+            }
             Some(_) => self.end_tilt(),
             None => {}
         }
@@ -64,6 +69,21 @@ impl State<'_> {
         }
         words.finish()?;
         Ok(true)
+    }
+
+    /// How the axes of the machine lie in the part where the rotary axes stand.
+    fn turn_of_axes(&self) -> Result<UnitQuaternion<f64>, Fault> {
+        let mut turn = UnitQuaternion::identity();
+        for (n, rotary) in self.dialect.forward.rotaries().iter().enumerate() {
+            let Some(rotary) = rotary else { continue };
+            if !self.known[n + 3] {
+                let message = "the rotary position at the tilted work plane is not known";
+                return Err(Fault::new(NcCode::MissingWord, message));
+            }
+            let degrees = self.at[n + 3];
+            turn *= UnitQuaternion::from_axis_angle(&rotary.direction, degrees.to_radians());
+        }
+        Ok(turn)
     }
 
     /// Takes a frame up; the tool need not lie along its Z yet.

@@ -101,12 +101,12 @@ impl<C: Steps> Verifier<'_, C> {
                 open[n] = None;
             }
             // Of a lathe both go at once: alone one of them may go through the wall of a groove.
-            // The settings may say that X goes first.
+            // The settings may say that one axis goes first.
             let reached = |n: usize| open[n].is_none_or(|to| self.is_there(n, to));
-            let rises = match self.settings.is_lathe() {
-                true if self.settings.goes_home_x_first() => reached(0),
-                true => (0..3).all(reached),
-                false => reached(2),
+            let rises = match (self.settings.is_lathe(), self.settings.first_of_lathe_home()) {
+                (true, Some(first)) => reached(first),
+                (true, None) => (0..3).all(reached),
+                (false, _) => reached(2),
             };
             self.check_edge_is_off(cl_line, &found);
             self.stand(&found);

@@ -92,12 +92,17 @@ pub fn go(control: &mut Control, motion: &Motion, before: Before, cause: Cause) 
 
 /// The axes that go together, in their order. Of a lathe neither axis is the one that must go first:
 /// as all its rapid motions this is one block, where the settings do not say otherwise.
-fn groups(control: &Control) -> [AxisSet; 3] {
+fn groups(control: &Control) -> [AxisSet; 4] {
     let is_lathe = control.commons.read(loc::LATHE_DIAMETER);
     match control.commons.read(loc::HOME_LATHE_ORDER) {
-        _ if !is_lathe => [AxisSet::Z, AxisSet::XY, AxisSet::ROTARY],
-        HomeLatheOrder::OneBlock => [AxisSet::Z.or(AxisSet::XY), AxisSet::ROTARY, AxisSet::NONE],
-        HomeLatheOrder::XThenZ => [AxisSet::XY, AxisSet::Z, AxisSet::ROTARY],
+        _ if !is_lathe => [AxisSet::Z, AxisSet::XY, AxisSet::ROTARY, AxisSet::NONE],
+        HomeLatheOrder::OneBlock => {
+            [AxisSet::Z.or(AxisSet::XY), AxisSet::ROTARY, AxisSet::NONE, AxisSet::NONE]
+        }
+        HomeLatheOrder::XThenZ => [AxisSet::XY, AxisSet::Z, AxisSet::ROTARY, AxisSet::NONE],
+        HomeLatheOrder::YThenXThenZ => {
+            [AxisSet::of(1), AxisSet::of(0), AxisSet::Z, AxisSet::ROTARY]
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! A tilted frame begins: the machine turns, clear of the part, and the control is told how it lies.
 
 use super::state::TiltedFrame;
-use super::{frame, height, position, tip_control, way_home};
+use super::{frame, height, machine_position, position, tip_control};
 use crate::control::needs::Act;
 use crate::control::word_address::cycle;
 use crate::control::{Control, Function, family, full_turn};
@@ -12,7 +12,7 @@ use crate::post::Post;
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 use fil_machine::axis_chain::AxisChain;
-use fil_machine::locations as loc;
+use fil_machine::locations::{self as loc, RotaryFrameForm};
 use nalgebra::{Rotation3, Vector3};
 
 /// What helps where the tool would begin elsewhere at feed.
@@ -64,7 +64,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<()> {
         true => [0.0; 2],
         false => chain.solve(axis, near)?,
     };
-    let turn = turn_of(chain, angles);
+    let turn = turn_of(chain, taken_by_frame(&post.control, angles)?);
     let known = frame::knows_rotary(&post.control);
     let rests = known && frame::still(stands, angles);
     if at_feed && !post.control.tip.is_away && post.path.point.is_some() {
@@ -122,6 +122,16 @@ fn refuse_at_feed(control: &Control, rests: bool) -> Result<()> {
 /// The tool lies along an axis where the machine stands at zero, and it can stand there.
 fn zero(chain: &AxisChain, axis: Vector3<f64>) -> bool {
     chain.reaches([0.0; 2]) && (axis - chain.tool.into_inner()).norm() < frame::SAME_AXIS
+}
+
+/// The angles from which the control takes the frame: those of its words, or where the rotary axes
+/// stand to their last digits.
+fn taken_by_frame(control: &Control, angles: [f64; 2]) -> Result<[f64; 2]> {
+    if control.commons.read(loc::ROTARY_FRAME_FORM) == RotaryFrameForm::Angles {
+        return Ok(angles);
+    }
+    let [first, second] = [0, 1].map(|n| control.tables.axis(n + 3).on_tape(angles[n]));
+    Ok([first?, second?])
 }
 
 /// How the machine's axes lie in the part where its rotary axes stand.
@@ -203,7 +213,7 @@ fn away(post: &Post, stands: [f64; 2]) -> Result<Away> {
 /// Turns the rotary axes, where nothing is beside the tool.
 fn turn_machine(post: &mut Post, away: Away, angles: [f64; 2]) -> Result<()> {
     if let Away::To(level) = away {
-        way_home::go_up_to(post, level)?;
+        machine_position::carry_out(post, [None, None, Some(level)])?;
     }
     let position = [0.0, 0.0, 0.0, angles[0], angles[1]];
     let motion = Motion::new(position, AxisSet::ROTARY, 0);

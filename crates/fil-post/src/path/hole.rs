@@ -80,6 +80,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     tip_control::end_outside(post)?;
     post.control.family().ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
     post.control.ready_length()?;
+    mill_turn::live_tool::turn_to_hole(post, target)?;
     let (position, mut hole, solution) = locate(post, cycle, target)?;
     rotary::establish(post, solution)?;
     refuse_beside_the_axis(&post.control, &position, &hole)?;

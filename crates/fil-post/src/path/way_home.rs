@@ -185,20 +185,17 @@ pub(super) fn take_work_offset(post: &mut Post, number: Option<i64>) -> Result<(
     write_work_offset(control, number)
 }
 
-/// Goes up to the level of RETRCT.
+/// Goes up to the level of RETRCT; the next motion says its function again, so that the program can
+/// be begun there.
 pub(super) fn go_up(post: &mut Post) -> Result<()> {
     match post.control.commons.dbl_opt(loc::HOME_RETRACT_Z) {
-        Some(level) if !height::is_above(&post.control, level)? => go_up_to(post, level),
+        Some(level) if !height::is_above(&post.control, level)? => {
+            machine_position::carry_out(post, [None, None, Some(level)])?;
+            post.control.state.forget(modal::MOTION, Source::Post);
+            Ok(())
+        }
         _ => Ok(()),
     }
-}
-
-/// Goes up to a level; the next motion says its function again, so that the program can be begun
-/// there.
-pub(super) fn go_up_to(post: &mut Post, level: f64) -> Result<()> {
-    machine_position::carry_out(post, [None, None, Some(level)])?;
-    post.control.state.forget(modal::MOTION, Source::Post);
-    Ok(())
 }
 
 /// Ends coolant and spindle and goes home before the program ends.

@@ -110,9 +110,13 @@ impl Settings<'_> {
             && self.commons.dbl_opt(loc::HOME_RETRACT_Z).is_some()
     }
 
-    /// X of a lathe goes home before Z.
-    pub fn goes_home_x_first(&self) -> bool {
-        self.commons.read(loc::HOME_LATHE_ORDER) == HomeLatheOrder::XThenZ
+    /// The axis of a lathe that goes home before the others; `None` where all go together.
+    pub fn first_of_lathe_home(&self) -> Option<usize> {
+        match self.commons.read(loc::HOME_LATHE_ORDER) {
+            HomeLatheOrder::OneBlock => None,
+            HomeLatheOrder::XThenZ => Some(0),
+            HomeLatheOrder::YThenXThenZ => Some(1),
+        }
     }
 
     /// The tool goes up before another work offset.

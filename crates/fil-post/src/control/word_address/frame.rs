@@ -1,9 +1,11 @@
-//! Tilted frames: G68.2 with Euler angles, G53.1, and G69.
+//! Tilted frames: G68.2 with Euler angles, G53.1, and G69; or G254, which takes the frame from where
+//! the rotary axes stand, and G255.
 
 use fil_diag::Result;
+use fil_machine::FunctionCode;
 use fil_machine::letters::{IJK, XYZ};
+use fil_machine::locations::{self as loc, RotaryFrameForm};
 use fil_machine::rounding::Rounding;
-use fil_machine::{FunctionCode, locations as loc};
 use nalgebra::Rotation3;
 
 use crate::control::Control;
@@ -18,6 +20,12 @@ use crate::euler::Euler;
 pub fn begin(control: &mut Control, turn: &Rotation3<f64>) -> Result<Rotation3<f64>> {
     let waiting = control.block.take();
     let frame = tenths(control, loc::ROTARY_FRAME_CODE, "rotary.frame_code")?;
+    if control.commons.read(loc::ROTARY_FRAME_FORM) == RotaryFrameForm::AsTheRotaryAxesStand {
+        control.g_of_record(frame);
+        control.write_block()?;
+        control.block = waiting;
+        return Ok(*turn);
+    }
     let align = tenths(control, loc::ROTARY_FRAME_ALIGN_CODE, "rotary.frame_align_code")?;
     control.g_of_record(frame);
     for letter in XYZ {

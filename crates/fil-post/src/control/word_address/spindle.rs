@@ -5,12 +5,12 @@ mod range;
 mod turn;
 
 use fil_diag::Result;
-use fil_machine::FunctionCode;
 use fil_machine::commons::EMPTY;
-use fil_machine::letters::S;
+use fil_machine::letters::{P, S};
 use fil_machine::locations::{self as loc, Placement};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::CodeAt;
+use fil_machine::{FunctionCode, Letter};
 
 use super::modes::{self, Own};
 use crate::control::needs::Act;
@@ -196,10 +196,35 @@ fn off(control: &mut Control) -> Result<()> {
     control.spindle.turning = None;
     let [.., stop] = codes(control);
     match control.code_if_any(stop) {
-        Some(code) => control.m(code),
+        Some(code) => turn_by(control, code)?,
         None => control.warn_no_code("SPINDL/OFF"),
     }
     control.write_block()
+}
+
+/// Adds the code that turns or stops the spindle, and the P that selects it.
+fn turn_by(control: &mut Control, code: FunctionCode) -> Result<()> {
+    control.m(code);
+    select(control)
+}
+
+/// Adds the P that selects the spindle of the block, where the control has such.
+fn select(control: &mut Control) -> Result<()> {
+    let at = match control.tables.mills() {
+        true => loc::MILL_TURN_LIVE_SELECT_NUMBER,
+        false => loc::SPINDLE_SELECT_NUMBER,
+    };
+    let Some(number) = control.commons.int_opt(at) else { return Ok(()) };
+    control.require_on_tape(P, "the number of the spindle")?;
+    control.word_rounded(P, number.into(), Rounding::Exact)?;
+    control.state.doubt(P);
+    Ok(())
+}
+
+/// The letter of the speed: a live tool may have one of its own, which nothing else counts.
+fn speed_letter(control: &Control) -> Letter {
+    let own = control.commons.read(loc::MILL_TURN_LIVE_SPEED_ADDRESS);
+    own.filter(|_| control.tables.mills()).unwrap_or(S)
 }
 
 /// Stops the spindle where the machine orients it. An angle has another address on each
@@ -259,10 +284,7 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         (Some(speed), _) => speed_words(control, speed)?,
         // What S counts is not known, as behind blocks that may be skipped.
         (None, Some(speed)) if !counts_as(control, speed) => speed_words(control, speed)?,
-        (None, Some(speed)) => {
-            let value = value_of(control, speed);
-            control.word(S, value)?;
-        }
+        (None, Some(speed)) => word_of_speed(control, speed)?,
         (None, None) => refuse_without_speed(control)?,
     }
     control.block.cause.word = direction_word;
@@ -278,6 +300,7 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         (None, _) if !is_main(control) => clockwise,
         (None, _) => loc::SPINDLE_DEFAULT_CODE,
     };
+    select(control)?;
     place(control, direction, "the spindle")
 }
 
@@ -305,7 +328,7 @@ fn warn_above_limit(control: &mut Control, speed: Option<SpindleSpeed>) {
 /// this one would turn by it.
 fn refuse_speed_of_the_other(control: &Control, turn: &SpindleTurn) -> Result<()> {
     let unknown = turn.speed.is_none() && control.spindle.speed.is_none();
-    if !unknown || control.commons.last_output(S) == EMPTY {
+    if !unknown || control.commons.last_output(speed_letter(control)) == EMPTY {
         return Ok(());
     }
     if control.tables.mill_turn.is_some() {
@@ -356,7 +379,7 @@ pub fn stand(control: &mut Control) -> Result<bool> {
     };
     let [.., stop] = codes(control);
     let code = control.code(stop, "the spindle that stands")?;
-    control.m(code);
+    turn_by(control, code)?;
     control.write_block()?;
     Ok(clockwise)
 }
@@ -369,7 +392,7 @@ pub fn turn_on(control: &mut Control, clockwise: bool) -> Result<()> {
     let [right, left, _] = codes(control);
     let at = if clockwise { right } else { left };
     let code = control.code(at, "the spindle turned again")?;
-    control.m(code);
+    turn_by(control, code)?;
     control.write_block()?;
     control.spindle.turning = Some(clockwise);
     Ok(())
@@ -400,8 +423,18 @@ fn speed_words(control: &mut Control, speed: SpindleSpeed) -> Result<()> {
         control.word_rounded(letter, limit, Rounding::Rate)?;
         control.state.doubt(letter);
     }
+    word_of_speed(control, speed)
+}
+
+/// Adds the word of a speed.
+fn word_of_speed(control: &mut Control, speed: SpindleSpeed) -> Result<()> {
     let value = value_of(control, speed);
-    control.word(S, value)
+    let letter = speed_letter(control);
+    control.word_rounded(letter, value, Rounding::of(S))?;
+    if letter != S {
+        control.state.doubt(letter);
+    }
+    Ok(())
 }
 
 /// The code that makes S turns a minute. Fanuc's controls take none in polar interpolation (its

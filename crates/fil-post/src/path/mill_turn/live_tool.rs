@@ -3,11 +3,12 @@
 use super::face;
 use crate::control::Control;
 use crate::errors::PostCode;
+use crate::operation::Target;
 use crate::path::position;
 use crate::path::position::Solution;
 use crate::post::Post;
 use fil_diag::Result;
-use fil_machine::axes::Position;
+use fil_machine::axes::{AxisSet, Position};
 use nalgebra::{Point3, Vector3};
 
 /// Tool axes nearer than this are one.
@@ -77,6 +78,27 @@ pub fn position_of(
         linear.y = 0.0;
     }
     Ok(([linear.x, linear.y, linear.z, c, 0.0], Solution::OfLiveTool([c, 0.0])))
+}
+
+/// Lets C turn a hole to an axial tool that X and Y don't bring there, such as one behind the axis of
+/// the spindle for a turret that ends at it.
+///
+/// # Errors
+/// As [`lie`].
+pub(in crate::path) fn turn_to_hole(post: &mut Post, target: Target) -> Result<()> {
+    if !post.control.tables.mills() || !has_y(&post.control) {
+        return Ok(());
+    }
+    let (point, axis) = position::transformed(post, target);
+    let last = post.path.rotary.unwrap_or_else(|| position::on_tape(post));
+    let tables = &post.control.tables;
+    let at = tables.chain().linear(point, last);
+    let beyond = tables.exceeded([at.x, at.y, at.z]).and(AxisSet::XY);
+    if lie(axis)? == Lie::Axial && !beyond.is_empty() {
+        let asked = libm::atan2(point.y, point.x).to_degrees();
+        post.path.rotary = Some([within_travel(post, asked, last[0])?, 0.0]);
+    }
+    Ok(())
 }
 
 /// The angle and whole turns on top that lies nearest to the last one within the travel.
