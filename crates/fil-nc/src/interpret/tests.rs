@@ -116,12 +116,12 @@ fn p_selects_the_spindle_of_a_block() {
         "mill_turn.live_select_number=12",
     ];
     for (blocks, read) in [
-        ("G97 S800 M3 P11\nM5 P11", true),
-        ("G97 S800 M3 P11\nM5 P11\nM35\nG97 S2000 M3 P12\nM5 P12\nM34", true),
-        ("G97 S800 M3", false),
-        ("G97 S800 M3 P13", false),
-        ("G97 S800 M3 P12", false),
-        ("M35\nG97 S2000 M3 P11", false),
+        ("S800 M3 P11\nM5 P11", true),
+        ("S800 M3 P11\nM5 P11\nM35\nS2000 M3 P12\nM5 P12\nM34", true),
+        ("S800 M3", false),
+        ("S800 M3 P13", false),
+        ("S800 M3 P12", false),
+        ("M35\nS2000 M3 P11", false),
     ] {
         assert_eq!(is_read(lathe(), &settings, blocks), read, "{blocks}");
     }
@@ -141,10 +141,10 @@ fn a_live_tool_needs_its_own_speed() {
         "mill_turn.live_speed_address=P",
     ];
     for (blocks, read) in [
-        ("M154\nG97 P2000 M133\nM135\nM155", true),
-        ("M154\nG97 M133", false),
-        ("M154\nG97 S2000 M133", false),
-        ("G97 P2000 M133", false),
+        ("M154\nP2000 M133\nM135\nM155", true),
+        ("M154\nM133", false),
+        ("M154\nS2000 M133", false),
+        ("P2000 M133", false),
     ] {
         assert_eq!(is_read(lathe(), &settings, blocks), read, "{blocks}");
     }
