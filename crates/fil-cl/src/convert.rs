@@ -9,6 +9,7 @@ use fil_diag::{Diag, Result, TextSpan};
 
 use crate::dialect::Recognized;
 use crate::errors::ClCode;
+use crate::forms::vector;
 use crate::layout::takes_text;
 use crate::reader::{Options, Reader};
 use crate::record::{FIRST_DATA, Record, Word, WordView, kind};
@@ -103,6 +104,48 @@ pub fn to_ncl(
     }
 }
 
+/// Tiny arcs of a system whose full turns are exact. Creo's text does not tell them from full turns:
+/// they are lines there, of less than any control can go.
+#[derive(Default)]
+struct TinyArcs {
+    /// Where the tool stands.
+    start: Option<[f64; 3]>,
+    /// A CIRCLE until its end comes.
+    held: Option<Record>,
+}
+
+impl TinyArcs {
+    /// Ends nearer than this to the start are those of tiny arcs, mm or inch.
+    const NEAR: f64 = 1e-3;
+
+    fn holds(&self) -> bool {
+        self.held.is_some()
+    }
+
+    /// Looks at a statement; gives back the CIRCLE before it, unless it was a tiny arc.
+    fn look(&mut self, record: &Record) -> Option<Record> {
+        let before = self.held.take();
+        if record.major == words::CIRCLE {
+            self.held = Some(record.clone());
+            return before;
+        }
+        let start = self.start;
+        self.start = record.point().or(start);
+        before.filter(|circle| !is_tiny(circle, start, record.point()))
+    }
+}
+
+/// An arc whose end lies a little beyond its start, in its running direction.
+fn is_tiny(circle: &Record, start: Option<[f64; 3]>, end: Option<[f64; 3]>) -> bool {
+    let (Some(circle), Some(start), Some(end)) = (circle.circle(), start, end) else {
+        return false;
+    };
+    let [from, to] = [start, end].map(|point| vector::sub(point, circle.center));
+    let apart = vector::norm(vector::sub(to, from));
+    let runs_on = vector::dot(circle.axis, vector::cross(from, to)) > 0.0;
+    apart > 0.0 && apart < TinyArcs::NEAR && runs_on
+}
+
 /// The statements of the new text, one after the other.
 struct Statements {
     /// The unit to be written before the first statement that needs one.
@@ -123,7 +166,16 @@ impl Statements {
         mut take: impl FnMut(&Record, &mut Vocabulary) -> Result<()>,
     ) -> Result<()> {
         let mut record = Record::default();
+        let mut tiny = TinyArcs::default();
         while reader.read(vocabulary, &mut record)? {
+            if reader.recognized().dialect.has_exact_turns()
+                && let Some(circle) = tiny.look(&record)
+            {
+                take(&circle, vocabulary)?;
+            }
+            if tiny.holds() {
+                continue;
+            }
             if let Some(units) = self.units_before(&record) {
                 take(&units, vocabulary)?;
             }
