@@ -83,7 +83,10 @@ fn lines_of_klartext_become_effects() {
         [Effect::DoubtAxes, Effect::Clears(z, Some(MachineSpot::At(5.5))), Effect::DoubtAxes]
     );
     assert_eq!(klartext("L Z+5.5").effects, [Effect::DoubtAxes, Effect::Stands(z, 5.5)]);
-    assert_eq!(klartext("CYCL DEF 7.0 DATUM SHIFT").effects[1..], [Effect::ShiftAxes]);
+    assert_eq!(
+        klartext("CYCL DEF 7.0 DATUM SHIFT").effects[1..],
+        [Effect::ShiftAxes, Effect::Forget(modal::WORK_OFFSET.group)]
+    );
     assert_eq!(klartext("Q5 = Q6 * 2").effects, []);
     assert!(klartext("L X+1 M13").has_function(|_, code| code.value() == 13.0));
 }
