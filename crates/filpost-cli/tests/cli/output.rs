@@ -7,7 +7,11 @@ fn nc_goes_to_standard_output_and_messages_to_standard_error() {
     let ran = Folder::new().with("part.ncl", SMALL).run(&["post", "part.ncl"]);
     assert_eq!((ran.status, ran.out.as_str()), (0, NC), "{ran:?}");
     assert_eq!(ran.err.lines().count(), 1, "{}", ran.err);
-    assert!(ran.err.starts_with("fanuc-mill (the CL file has no MACHIN): 8 blocks, 0 warnings"));
+    assert!(
+        ran.err.starts_with(
+            "fanuc-mill (the CL file has no MACHIN), style plain: 8 blocks, 0 warnings"
+        )
+    );
 }
 
 #[test]

@@ -171,10 +171,10 @@ impl<'o, 'r> Outside<'o, 'r> {
     pub fn begin(&mut self) -> Result<(), Box<Diag>> {
         let told = self.source.told_unit();
         self.report.unit = units::known_before(self.units, told, &self.post.control.commons)?;
-        let known = self.report.unit.map(|(unit, _)| unit);
-        if let Some(unit) = known.or_else(|| self.source.unit_ahead()) {
+        if let Some((unit, _)) = self.report.unit {
             self.post.assume_unit(unit);
         }
+        self.post.control.unit_ahead = self.source.unit_ahead();
         if self.post.control.commons.read(PROGRAM_TIME_STAMP) {
             let Some(now) = self.granted.now() else {
                 return fil_vm::errors::RunCode::ClockNotGranted
