@@ -31,6 +31,8 @@ pub(crate) struct Counted {
     pub unit: Option<Unit>,
     /// A matrix moves the points of the CL file.
     pub is_moved: bool,
+    /// It writes words of Z, as a script does for a cycle of its own.
+    pub writes_z: bool,
 }
 
 /// What was counted.
@@ -163,11 +165,9 @@ impl Overview {
         if record.takes_tool() {
             self.change_tool(record, cl_record);
         }
-        // Whole threads; axis words of a script, as the blocks of a cycle of its own.
-        let cuts_beside =
-            matches!(record.major, words::THREAD | words::OP | words::POSTN | words::REPEAT);
+        let is_thread = matches!(record.major, words::THREAD | words::OP);
         let has_other_z = match counted.motion {
-            None => cuts_beside,
+            None => is_thread || counted.writes_z,
             Some(_) => counted.is_moved,
         };
         if let Some(tool) = self.tool.filter(|_| has_other_z) {

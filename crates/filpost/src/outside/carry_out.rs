@@ -1,7 +1,7 @@
 //! One record carried out by the post.
 
 use fil_cl::vocabulary::words;
-use fil_cl::{Record, Vocabulary, record::kind};
+use fil_cl::{Record, Vocabulary, Word, record::kind};
 use fil_diag::Diag;
 use fil_machine::locations::MESSAGE_TO_TAPE;
 
@@ -76,6 +76,7 @@ impl Outside<'_, '_> {
                 corner: self.source.corner(),
                 unit: self.post.unit(),
                 is_moved: self.post.moves_points(),
+                writes_z: writes_z(record, vocabulary),
             };
             overview.count(record, self.post.control.tape.cause.record, &counted);
         }
@@ -144,4 +145,10 @@ impl Outside<'_, '_> {
         }
         Ok(())
     }
+}
+
+/// True for words of Z that no motion is.
+fn writes_z(record: &Record, vocabulary: &Vocabulary) -> bool {
+    let is_z = |word: &Word| matches!(word, Word::Minor(id) if vocabulary.name(*id) == "Z");
+    matches!(record.major, words::POSTN | words::REPEAT) && record.data.iter().any(is_z)
 }
