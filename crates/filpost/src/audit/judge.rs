@@ -220,7 +220,7 @@ mod tests {
         let [reference, nc] = &texts;
         let dialect = Dialect::new(program.commons()).expect("its control");
         let mut stated = Stated::new(&dialect);
-        for (nc_line, text, is_spelt) in function {
+        if let Some((nc_line, text, is_spelt)) = function {
             let word = Word { text: text.to_string(), letter: 'G', stack: 1, is_spelt };
             stated.record(&[Pair::Added(&Made { words: vec![word], ..made(nc_line) })]);
         }
