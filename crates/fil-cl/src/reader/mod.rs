@@ -413,8 +413,9 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Makes the record of a text statement, whose text begins there. Control characters stay in the text: whoever
-    /// writes it must refuse them, and a comment that is written nowhere may have them.
+    /// Makes the record of a text statement; `from` is where the text begins in it. Control
+    /// characters stay: whoever writes the text must refuse them, and a comment that is written
+    /// nowhere may have them.
     fn take_text(&mut self, record: &mut Record, major: crate::WordId, from: usize) -> Result<()> {
         self.refuse_bytes(is_nul)?;
         self.item_ranges.clear();

@@ -177,8 +177,6 @@ pub struct Control {
     pub(crate) last_arc: u64,
     /// Unit of the CL file and of the program; `None` before anything says it.
     pub unit: Option<Unit>,
-    /// The unit that UNITS gives behind names and texts alone, for what needs one before it.
-    pub unit_ahead: Option<Unit>,
     codes: Codes,
     family: &'static family::Row,
 }
@@ -222,7 +220,6 @@ impl Control {
             helix_words: false,
             last_arc: 0,
             unit,
-            unit_ahead: None,
         })
     }
 
@@ -277,7 +274,7 @@ impl Control {
     /// Neither UNITS nor the machine nor the user has.
     #[inline]
     pub fn require_unit(&self) -> Result<Unit> {
-        self.unit.or(self.unit_ahead).ok_or_else(|| {
+        self.unit.or(self.head.unit_ahead).ok_or_else(|| {
             PostCode::NoUnit.diag("a word with a number comes before mm or inch is set")
         })
     }

@@ -45,6 +45,8 @@ pub struct ProgramHead {
     pub time: Option<String>,
     /// The tools, a line each, where the machine lists them; `None` where nobody has counted them.
     pub tools: Option<Vec<String>>,
+    /// The unit that UNITS gives behind names and texts alone, for what needs one before it.
+    pub unit_ahead: Option<Unit>,
     /// The PARTNO record.
     pub cause: Cause,
     /// The start of the program has been written.

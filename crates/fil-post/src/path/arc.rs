@@ -12,7 +12,7 @@ use nalgebra::{Point3, Vector3};
 use super::arc_parts::{
     FULL, Parts, RADIUS_TOLERANCE, SAME_POINT, Step, flat, least_angle, start_angle, sweep,
 };
-use super::mill_turn::face;
+use super::mill_turn::live_tool;
 use super::position::Solution;
 use super::{feed_rules, frame, rotary, tip_control};
 use super::{frame_begin, long_arc, position};
@@ -70,7 +70,7 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         frame_begin::turn_to(post, Target { axis, ..target }, false)?;
     }
     tip_control::end_outside(post)?;
-    let turns_c = face::is_cut_by_c(&post.control);
+    let turns_c = live_tool::is_cut_by_c(&post.control);
     let whole = if turns_axis || turns_c {
         None
     } else {

@@ -12,7 +12,7 @@ use fil_machine::locations as loc;
 use fil_machine::tables::MachineTables;
 use nalgebra::Point3;
 
-use super::mill_turn::face;
+use super::mill_turn::live_tool;
 use super::position;
 use super::state::{Arrived, OnTape, Straightness};
 use super::tip::{certain_distance, distance, largest_distance, tip, tip_beside};
@@ -289,7 +289,7 @@ pub(super) fn stands(post: &Post, before: [f64; 2]) -> Start {
         None => {
             let linear = tables.chain().linear(point, before);
             // C is rounded first: what it leaves beside the axis is no position of a slide.
-            let y = if face::is_cut_by_c(&post.control) { 0.0 } else { linear.y };
+            let y = if live_tool::is_cut_by_c(&post.control) { 0.0 } else { linear.y };
             [linear.x, y, linear.z, before[0], before[1]]
         }
     };
@@ -316,7 +316,7 @@ impl<'a> Turning<'a> {
         let from = start.position;
         let begin = start.tip.unwrap_or_else(|| tip(chain, &from));
         let turns = post.path.turning.turns;
-        let by_radius = face::is_cut_by_c(&post.control);
+        let by_radius = live_tool::is_cut_by_c(&post.control);
         Turning { tables, chain, ends: [from, to], line: [begin, end], turns, by_radius }
     }
 
@@ -345,7 +345,7 @@ impl<'a> Turning<'a> {
                 let mut angles = [3, 4].map(|n| from[n] + (to[n] - from[n]) * share);
                 let tip = self.line[0] + (self.line[1] - self.line[0]) * share;
                 if self.by_radius {
-                    angles[0] = face::angle(tip, angles[0]);
+                    angles[0] = live_tool::angle(tip, angles[0]);
                 }
                 let linear = self.chain.linear(tip, angles);
                 position = [linear.x, linear.y, linear.z, angles[0], angles[1]];

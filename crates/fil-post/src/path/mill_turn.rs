@@ -6,7 +6,7 @@
 
 mod crossing;
 mod cylinder;
-pub(super) mod face;
+mod face;
 pub(super) mod hole;
 pub(super) mod live_tool;
 mod polar;
@@ -167,7 +167,7 @@ pub(super) fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Resu
     let by_polar = axial
         && post.path.cycle.is_none()
         && !has_y(&post.control)
-        && polar::is_there(&post.control);
+        && live_tool::has_polar(&post.control);
     match kind {
         MotionKind::Rapid(_) if by_polar && turns(post, point) => {
             polar::begin(post, target, point, kind)?;
@@ -224,7 +224,7 @@ pub(super) fn turning_feed(
 ) -> Result<()> {
     let (_, axis) = position::transformed(post, target);
     if lie(axis)? == Lie::Axial {
-        if face::is_cut_by_c(&post.control) {
+        if live_tool::is_cut_by_c(&post.control) {
             return face::feed(post, from, to, target);
         }
         return PostCode::Polar.err_with(
@@ -309,7 +309,7 @@ fn refuse_modes_of_others(control: &Control, operation: &Operation) -> Result<()
     refuse_axes_of_others(control, operation)?;
     let of_g =
         [loc::MILL_TURN_POLAR_CODE, loc::MILL_TURN_POLAR_END_CODE, loc::MILL_TURN_CYLINDER_CODE];
-    let of_g = of_g.map(|at| polar::tenths(control, at));
+    let of_g = of_g.map(|at| live_tool::tenths(control, at));
     let of_m = [loc::MILL_TURN_MILLING_CODE, loc::MILL_TURN_TURNING_CODE];
     // The code that stops a spindle makes it no axis where SETMS must come before it.
     let stop = control.code_if_any(loc::SPINDLE_STOP_CODE);
@@ -390,7 +390,7 @@ pub(super) fn before_arc(post: &mut Post, arc: &Arc, target: Target) -> Result<(
             polar::check_arc(post, arc, target)
         }
         (false, true) => polar::end(post),
-        (true, false) if !has_y(&post.control) && !face::is_cut_by_c(&post.control) => {
+        (true, false) if !has_y(&post.control) && !live_tool::is_cut_by_c(&post.control) => {
             PostCode::Polar
                 .err("an arc by a tool along Z; polar interpolation begins at a rapid move")
         }

@@ -174,7 +174,7 @@ impl<'o, 'r> Outside<'o, 'r> {
         if let Some((unit, _)) = self.report.unit {
             self.post.assume_unit(unit);
         }
-        self.post.control.unit_ahead = self.source.unit_ahead();
+        self.post.control.head.unit_ahead = self.source.unit_ahead();
         if self.post.control.commons.read(PROGRAM_TIME_STAMP) {
             let Some(now) = self.granted.now() else {
                 return fil_vm::errors::RunCode::ClockNotGranted

@@ -9,7 +9,7 @@ use fil_machine::locations::{self as loc, MillTurnMode};
 use nalgebra::{Point3, Vector3};
 
 use super::live_tool;
-use super::polar::tenths;
+use super::live_tool::tenths;
 use crate::control::Control;
 use crate::control::family;
 use crate::control::needs::Act;

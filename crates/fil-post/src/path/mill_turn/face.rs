@@ -3,26 +3,12 @@
 
 use fil_diag::Result;
 use fil_machine::axes::Position;
-use nalgebra::Point3;
 
-use super::live_tool::{FULL, has_y};
 use super::polar;
-use crate::control::Control;
 use crate::control::needs::Act;
 use crate::operation::Target;
 use crate::path::{linearization, position, tip};
 use crate::post::Post;
-
-/// A tool along Z cuts by X and C.
-pub(in crate::path) fn is_cut_by_c(control: &Control) -> bool {
-    control.tables.mills() && !has_y(control) && !polar::is_there(control)
-}
-
-/// The angle of C at which the tool is over a point of the part, degrees, the nearest to `last`.
-pub(in crate::path) fn angle(tip: Point3<f64>, last: f64) -> f64 {
-    let angle = libm::atan2(tip.y, tip.x).to_degrees();
-    angle + FULL * ((last - angle) / FULL).round()
-}
 
 /// Cuts across a face while C turns.
 ///

@@ -1,6 +1,5 @@
 //! The positions of the axes for a live tool.
 
-use super::face;
 use crate::control::Control;
 use crate::errors::PostCode;
 use crate::operation::Target;
@@ -8,7 +7,10 @@ use crate::path::position;
 use crate::path::position::Solution;
 use crate::post::Post;
 use fil_diag::Result;
+use fil_machine::FunctionCode;
 use fil_machine::axes::{AxisSet, Position};
+use fil_machine::commons::Int;
+use fil_machine::locations as loc;
 use nalgebra::{Point3, Vector3};
 
 /// Tool axes nearer than this are one.
@@ -17,7 +19,7 @@ const SAME_AXIS: f64 = 1e-5;
 /// A tool nearer than this to the axis of the spindle leaves C open, mm or inch.
 pub(super) const CENTER: f64 = 1e-9;
 
-pub(super) const FULL: f64 = 360.0;
+const FULL: f64 = 360.0;
 
 /// How a live tool lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,6 +48,28 @@ pub(super) fn has_y(control: &Control) -> bool {
     !control.tables.transforms && !control.tables.axis(1).is_off()
 }
 
+/// A face can be milled in polar interpolation.
+pub(super) fn has_polar(control: &Control) -> bool {
+    control.tables.transforms || tenths(control, loc::MILL_TURN_POLAR_CODE).is_some()
+}
+
+/// A function by a setting in tenths.
+pub(super) fn tenths(control: &Control, at: Int) -> Option<FunctionCode> {
+    let code = control.commons.int_opt(at).and_then(|code| u32::try_from(code).ok());
+    code.filter(|code| *code > 0).map(FunctionCode::tenths)
+}
+
+/// A tool along Z cuts by X and C.
+pub(in crate::path) fn is_cut_by_c(control: &Control) -> bool {
+    control.tables.mills() && !has_y(control) && !has_polar(control)
+}
+
+/// The angle of C at which the tool is over a point of the part, degrees, the nearest to `last`.
+pub(in crate::path) fn angle(tip: Point3<f64>, last: f64) -> f64 {
+    let angle = libm::atan2(tip.y, tip.x).to_degrees();
+    angle + FULL * ((last - angle) / FULL).round()
+}
+
 /// The positions of the axes for a live tool: C rounded as the tape has it, so that X, Y
 /// and Z belong to where it really stands.
 ///
@@ -60,7 +84,7 @@ pub fn position_of(
     let has_y = has_y(&post.control);
     let asked = match lie(axis)? {
         Lie::Axial if has_y || libm::hypot(point.x, point.y) < CENTER => last,
-        Lie::Axial => face::angle(point, last),
+        Lie::Axial => angle(point, last),
         Lie::Radial => libm::atan2(axis.y, axis.x).to_degrees(),
     };
     let tables = &post.control.tables;

@@ -6,14 +6,12 @@
 //! feed `mill_turn.polar_rapid`.
 
 use fil_diag::Result;
-use fil_machine::FunctionCode;
 use fil_machine::axes::{AxisSet, Position};
-use fil_machine::commons::Int;
 use fil_machine::locations::{self as loc, MillTurnMode};
 use fil_machine::modes::{FeedMode, Plane};
 use nalgebra::{Point2, Point3, Rotation3, Unit};
 
-use super::live_tool::CENTER;
+use super::live_tool::{CENTER, tenths};
 use crate::control::family;
 use crate::control::needs::{self, Act};
 use crate::control::sinumerik::transformation;
@@ -41,11 +39,6 @@ const ARC_STEPS: u32 = 180;
 /// so that none comes near the axis, radians.
 const MOST_TURN: f64 = std::f64::consts::FRAC_PI_2;
 
-/// The machine has it.
-pub(super) fn is_there(control: &Control) -> bool {
-    control.tables.transforms || tenths(control, loc::MILL_TURN_POLAR_CODE).is_some()
-}
-
 /// Says that it begins.
 fn say_begin(control: &mut Control) -> Result<()> {
     if control.tables.transforms {
@@ -68,12 +61,6 @@ fn say_end(control: &mut Control) -> Result<()> {
     };
     control.g_of_record(code);
     control.write_block()
-}
-
-/// A function by a setting in tenths.
-pub(super) fn tenths(control: &Control, at: Int) -> Option<FunctionCode> {
-    let code = control.commons.int_opt(at).and_then(|code| u32::try_from(code).ok());
-    code.filter(|code| *code > 0).map(FunctionCode::tenths)
 }
 
 /// Begins it at a rapid motion, and goes to the target.
