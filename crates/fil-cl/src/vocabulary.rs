@@ -274,7 +274,8 @@ impl Vocabulary {
         loop {
             let id = self.slots[slot];
             let entry = self.entries.get(id as usize)?;
-            if entry.hash == hash && entry.name.as_bytes().eq_ignore_ascii_case(name) {
+            let known = entry.name.as_bytes();
+            if entry.hash == hash && (known == name || known.eq_ignore_ascii_case(name)) {
                 return Some(WordId(id));
             }
             slot = (slot + 1) & mask;

@@ -15,12 +15,10 @@ pub(super) const RULES: DialectRules = DialectRules {
     name: "camworks",
     title: "CAMWorks CLT (.clt)",
     signs: &[Sign::Name("BOX"), Sign::Name("OPFEATSTART"), Sign::Name("OPFEATEND")],
-    circle: Some(CircleForm {
-        counts: &[7],
-        sense: ArcSense::ByWord,
-        proof: Some("20 of 20 arcs that CLT and APT files of the same operations give"),
-        exact_turns: false,
-    }),
+    circle: Some(
+        CircleForm::new(&[7], ArcSense::ByWord)
+            .proved_by("20 of 20 arcs that CLT and APT files of the same operations give"),
+    ),
     geometry: false,
     splines: false,
     axis: AxisRule::ModalInMultax,

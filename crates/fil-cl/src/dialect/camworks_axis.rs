@@ -9,11 +9,6 @@ pub(super) const RULES: DialectRules = DialectRules {
     name: "camworks-axis",
     title: "CAMWorks CLT (.clt) with arcs in the direction of their axis",
     signs: &[],
-    circle: Some(CircleForm {
-        counts: &[7],
-        sense: ArcSense::ByAxis,
-        proof: None,
-        exact_turns: false,
-    }),
+    circle: Some(CircleForm::new(&[7], ArcSense::ByAxis)),
     ..camworks::RULES
 };

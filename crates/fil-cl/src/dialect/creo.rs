@@ -19,12 +19,7 @@ pub(super) const RULES: DialectRules = DialectRules {
         Sign::Word(w::PPWORD),
         Sign::Text(w::REMARK, "PRO/CLFILE"),
     ],
-    circle: Some(CircleForm {
-        counts: &[4, 7],
-        sense: ArcSense::RightHand,
-        proof: None,
-        exact_turns: false,
-    }),
+    circle: Some(CircleForm::new(&[4, 7], ArcSense::RightHand)),
     geometry: true,
     splines: false,
     axis: AxisRule::AsWritten,

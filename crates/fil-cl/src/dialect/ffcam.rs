@@ -13,12 +13,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     name: "ffcam",
     title: "Makino FFCAM (.cldata)",
     signs: &[Sign::Text(w::PPRINT, "APTCL-SPEC")],
-    circle: Some(CircleForm {
-        counts: &[11],
-        sense: ArcSense::LeftHand,
-        proof: None,
-        exact_turns: false,
-    }),
+    circle: Some(CircleForm::new(&[11], ArcSense::LeftHand)),
     geometry: false,
     splines: false,
     axis: AxisRule::Modal,

@@ -14,12 +14,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     name: "generic",
     title: "APT and ISO 4343, no CAM system recognized",
     signs: &[],
-    circle: Some(CircleForm {
-        counts: &[4, 6, 7],
-        sense: ArcSense::RightHand,
-        proof: None,
-        exact_turns: false,
-    }),
+    circle: Some(CircleForm::new(&[4, 6, 7], ArcSense::RightHand)),
     geometry: true,
     splines: false,
     axis: AxisRule::ModalInMultax,

@@ -8,11 +8,6 @@ use super::{ArcSense, CircleForm, DialectRules, generic};
 pub(super) const RULES: DialectRules = DialectRules {
     name: "generic-left",
     title: "APT and ISO 4343 with circles opposite to the right-hand rule; only by choice",
-    circle: Some(CircleForm {
-        counts: &[6, 7],
-        sense: ArcSense::LeftHand,
-        proof: None,
-        exact_turns: false,
-    }),
+    circle: Some(CircleForm::new(&[6, 7], ArcSense::LeftHand)),
     ..generic::RULES
 };

@@ -136,6 +136,21 @@ pub struct CircleForm {
 }
 
 impl CircleForm {
+    /// Circles of `counts` numbers whose axis has this sense, which nothing proves.
+    const fn new(counts: &'static [usize], sense: ArcSense) -> Self {
+        CircleForm { counts, sense, proof: None, exact_turns: false }
+    }
+
+    const fn proved_by(mut self, proof: &'static str) -> Self {
+        self.proof = Some(proof);
+        self
+    }
+
+    const fn with_exact_turns(mut self) -> Self {
+        self.exact_turns = true;
+        self
+    }
+
     /// How many numbers it has, as `4, 6 or 7`.
     pub fn spell_counts(&self) -> String {
         let counts: Vec<String> = self.counts.iter().map(usize::to_string).collect();

@@ -21,12 +21,7 @@ pub(super) const RULES: DialectRules = DialectRules {
         Sign::Word(w::PAINT),
         Sign::Word(w::END_OF_PATH),
     ],
-    circle: Some(CircleForm {
-        counts: &[11],
-        sense: ArcSense::LeftHand,
-        proof: None,
-        exact_turns: true,
-    }),
+    circle: Some(CircleForm::new(&[11], ArcSense::LeftHand).with_exact_turns()),
     geometry: false,
     splines: true,
     axis: AxisRule::Modal,

@@ -13,12 +13,10 @@ pub(super) const RULES: DialectRules = DialectRules {
     name: "solidworks-cam",
     title: "SolidWorks CAM APT (.apt)",
     signs: &[Sign::Word(w::TRNTYP), Sign::Prefix("CSI_SET_")],
-    circle: Some(CircleForm {
-        counts: &[6, 7],
-        sense: ArcSense::RightHand,
-        proof: Some("2021 of 2021 arcs of Heidenhain programs"),
-        exact_turns: false,
-    }),
+    circle: Some(
+        CircleForm::new(&[6, 7], ArcSense::RightHand)
+            .proved_by("2021 of 2021 arcs of Heidenhain programs"),
+    ),
     geometry: false,
     splines: false,
     axis: AxisRule::Upright,

@@ -317,18 +317,8 @@ impl<'r> Reader<'r> {
         record.line = self.statement.line;
         let mut outcome = Outcome::Free;
         match form {
-            Form::Text(major) => {
-                self.major = Some(major);
-                self.take_text(record, major, 0)?;
-            }
-            Form::Alias(length) => {
-                let (name, rest) = self.statement.joined.split_at(length);
-                let major = vocab.intern_bytes(name);
-                let blanks = rest.len() - rest.trim_ascii_start().len();
-                let text = rest[blanks + 1..].trim_ascii_start().len();
-                self.major = Some(major);
-                self.take_text(record, major, self.statement.joined.len() - text)?;
-            }
+            Form::Text(major) => self.take_text(record, major, 0)?,
+            Form::Alias(length) => self.take_alias(vocab, record, length)?,
             Form::Pseudo | Form::Frame => {
                 self.parse_items(vocab, record, true)?;
                 if form == Form::Pseudo {
@@ -413,10 +403,26 @@ impl<'r> Reader<'r> {
         }
     }
 
+    /// Makes the record of an NC alias, whose name has so many bytes.
+    #[cold]
+    fn take_alias(
+        &mut self,
+        vocab: &mut Vocabulary,
+        record: &mut Record,
+        length: usize,
+    ) -> Result<()> {
+        let (name, rest) = self.statement.joined.split_at(length);
+        let major = vocab.intern_bytes(name);
+        let blanks = rest.len() - rest.trim_ascii_start().len();
+        let text = rest[blanks + 1..].trim_ascii_start().len();
+        self.take_text(record, major, self.statement.joined.len() - text)
+    }
+
     /// Makes the record of a text statement; `from` is where the text begins in it. Control
     /// characters stay: whoever writes the text must refuse them, and a comment that is written
     /// nowhere may have them.
     fn take_text(&mut self, record: &mut Record, major: crate::WordId, from: usize) -> Result<()> {
+        self.major = Some(major);
         self.refuse_bytes(is_nul)?;
         self.item_ranges.clear();
         if major == words::INSERT && self.statement.has_skip_mark(&self.lines) {

@@ -45,12 +45,14 @@ pub(super) struct Repeated {
     known: Box<[[Known; KEPT]; PLACES]>,
     /// Place and number of the two that came last: one of them comes next in most files.
     last: [(usize, usize); 2],
+    /// Place of the statement that was looked for and not found: it is kept there once it is read.
+    missed: Option<usize>,
 }
 
 impl Default for Repeated {
     fn default() -> Self {
         let known = Box::new(std::array::from_fn(|_| Default::default()));
-        Repeated { known, last: [(0, 0); 2] }
+        Repeated { known, last: [(0, 0); 2], missed: None }
     }
 }
 
@@ -72,25 +74,27 @@ impl Repeated {
     }
 
     /// Place and number of the statement at the start of `text`.
-    fn find(&self, text: &[u8]) -> Option<(usize, usize)> {
+    fn find(&mut self, text: &[u8]) -> Option<(usize, usize)> {
+        self.missed = None;
         let head = &text[..text.len().min(LONGEST)];
         let length = memchr::memchr(b'\n', head)? + 1;
         let place = place(&head[..length]);
-        Some((place, self.known[place].iter().position(|known| known.begins(text))?))
+        let found = self.known[place].iter().position(|known| known.begins(text));
+        if found.is_none() {
+            self.missed = Some(place);
+        }
+        Some((place, found?))
     }
 
-    /// Keeps a whole statement of so many lines, unless its record depends on the
+    /// Keeps the statement of so many lines that was looked for last, unless its record depends on the
     /// statements before it or leaves something for those after it. It takes the room of
     /// the one that was kept longest in its place.
     pub(super) fn keep(&mut self, text: &[u8], lines: u32, record: &Record) {
         let is_modal = record.kind == kind::MOTION
             || matches!(record.major, words::MULTAX | words::TLAXIS | words::GOHOME);
-        let first = memchr::memchr(b'\n', text).map_or(usize::MAX, |end| end + 1);
-        let is_long = first > LONGEST || text.len() > LONGEST_STATEMENT;
-        if is_modal || is_long || !text.ends_with(b"\n") {
-            return;
-        }
-        let place = &mut self.known[place(&text[..first])];
+        let is_whole = text.len() <= LONGEST_STATEMENT && text.ends_with(b"\n");
+        let Some(place) = self.missed.take().filter(|_| is_whole && !is_modal) else { return };
+        let place = &mut self.known[place];
         place.rotate_right(1);
         let known = &mut place[0];
         known.text.clear();

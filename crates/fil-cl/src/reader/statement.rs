@@ -399,12 +399,12 @@ fn opening(line: &[u8]) -> (Form, usize) {
 
 /// Length of the name before the colon of an NC alias.
 fn alias(line: &[u8]) -> Option<usize> {
+    let name = line[..memchr::memchr(b':', line)?].trim_ascii_end();
     let is_of_name = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
-    let length = line.iter().position(|byte| !is_of_name(byte))?;
-    let colon = line[length..].trim_ascii_start().first() == Some(&b':');
-    let name = &line[..length];
-    let is_name = name.first().is_some_and(u8::is_ascii_alphabetic) && !words::is_major_name(name);
-    (colon && is_name).then_some(length)
+    let is_name = name.first().is_some_and(u8::is_ascii_alphabetic)
+        && name.iter().all(is_of_name)
+        && !words::is_major_name(name);
+    is_name.then_some(name.len())
 }
 
 /// Length of the text word at the start of a line, in any case; where the name has a blank
