@@ -122,6 +122,33 @@ fn each_cause_is_a_record_of_the_cl_file() {
 
 /// On a mill that writes coordinates as they are, an axis word that repeats a
 /// word of its record has its value.
+/// A message that waits for a tool change is made by the statement that gave it, and not by the one
+/// that changes the tool.
+#[test]
+fn a_message_that_has_waited_is_of_its_own_line() {
+    let fil = "CIMFIL/ON,LOADTL\n  PPRINT FROM THE MACRO\n  DMY = POSTF(13)\nCIMFIL/OFF\n";
+    let post = Program::builder().ready("fanuc-mill").fil("post.fil", fil).build().unwrap();
+    let cl = "UNITS/MM\nPPRINT FROM THE FILE\nLOADTL/1\nSPINDL/RPM,900,CLW\nGOHOME\nFINI\n";
+    let (mut nc, mut map) = (Vec::new(), Vec::new());
+    post.start().run_mapped(Cursor::new(cl), &mut nc, &names(&post), &mut map).unwrap();
+    let nc = String::from_utf8(nc).unwrap();
+    let mut reader = MapReader::new("part.map", Cursor::new(&map)).unwrap();
+    let entries: Vec<Entry> = reader.by_ref().collect::<Result<_, _>>().unwrap();
+    let made = |block: &str| {
+        let number = 1 + nc.lines().position(|line| line.contains(block)).expect(block) as u64;
+        let cause = entries.iter().find_map(|entry| match entry {
+            Entry::Line(line) if line.number == number => Some(line.cause),
+            _ => None,
+        });
+        let cause = cause.expect("a line of the map");
+        let stack = reader.stack(cause);
+        (cause.line, stack.map(|stack| stack.lines[0].line))
+    };
+    assert_eq!(made("(FROM THE FILE)"), (2, None), "{nc}");
+    assert_eq!(made("(FROM THE MACRO)"), (3, Some(2)), "{nc}");
+    assert_eq!(made("T1 M6"), (3, Some(3)), "{nc}");
+}
+
 #[test]
 fn an_axis_word_repeats_the_word_it_names() {
     let mut count = 0;

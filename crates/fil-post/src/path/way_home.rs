@@ -117,7 +117,10 @@ pub(crate) fn write_held(control: &mut Control) -> Result<()> {
             Held::Message(text) => Operation::Message(text),
             Held::Stop(stop) => Operation::Stop(stop),
         };
+        // The whole block is that of the record which has waited.
+        let now = std::mem::replace(&mut control.tape.cause, cause);
         control.because(cause, |control| control.family().write(control, operation))?;
+        control.tape.cause = now;
     }
     Ok(())
 }
