@@ -18,7 +18,7 @@ export const drawing = {
     const { page, picture, close } = await studio();
     await begin(page, "haas-mill");
     await openPath(page);
-    const line = page.locator("#nc .cm-line", { hasText: /X\d/ }).last(), text = (await line.innerText()).trim();
+    const line = page.locator("#nc .cm-line", { hasText: "X40." }), text = (await line.innerText()).trim();
     await line.click();
     await page.locator(".fv-block", { hasText: text }).waitFor();
     await picture("path");
