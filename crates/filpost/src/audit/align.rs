@@ -97,7 +97,7 @@ impl Waiting {
         let (left, right) = (of(false), of(true));
         let same = |one: &Made, two: &Made| u32::from(one.is_as(two));
         let mut pairs = paired(&left, &right, same);
-        let record = |pair: &Pair<'_>| pair.made().cause.record;
+        let record = |pair: &Pair<'_>| pair.made().place;
         let stays = |pair: &Pair<'_>| !pair.is_alone();
         for between in pairs.split_mut(stays) {
             between.sort_by_key(record);

@@ -209,8 +209,8 @@ impl Changes {
         self.add(author, key, place, What::Blocks { from, to });
     }
 
-    /// Blocks that the same author has put in or left out beside another place of a record, and
-    /// that are left out or put in here: they have moved.
+    /// Blocks that the same author, or the post by what he has done, has put in or left out beside
+    /// another place of a record, and that are left out or put in here: they have moved.
     fn moves(
         &mut self,
         author: &Author,
@@ -221,7 +221,8 @@ impl Changes {
         let What::Blocks { from: left_out, to: put_in } = &mut last.what else { return false };
         let is_one = left_out.is_empty() != put_in.is_empty() && from.is_empty() != to.is_empty();
         let moves = is_one && left_out == to && put_in == from;
-        if !moves || last.count != 1 || last.cl_lines != [place.0] || last.author != *author {
+        let by_one = last.author == *author || matches!(last.author, Author::Post { .. });
+        if !moves || last.count != 1 || last.cl_lines != [place.0] || !by_one {
             return false;
         }
         let texts = if to.is_empty() { from } else { to };
@@ -229,7 +230,8 @@ impl Changes {
         (*left_out, *put_in) = (texts.to_vec(), texts.to_vec());
         last.nc_lines.extend(place.1);
         let moved = Key::Texts(texts.to_vec(), texts.to_vec());
-        let index = self.known.remove(&(author.clone(), key));
+        let before = std::mem::replace(&mut last.author, author.clone());
+        let index = self.known.remove(&(before, key));
         self.known.extend(index.map(|index| ((author.clone(), moved), index)));
         true
     }

@@ -210,7 +210,8 @@ mod tests {
         same: &[(u32, u32)],
         function: Option<(u32, &str, bool)>,
     ) -> Vec<String> {
-        let made = |nc_line| Made { nc_line, cause: fil_post::Cause::default(), words: Vec::new() };
+        let cause = fil_post::Cause::default();
+        let made = |nc_line| Made { nc_line, cause, place: 0, words: Vec::new() };
         let mut lines = SameLines::default();
         for (one, two) in same {
             lines.record(&[Pair::Same(&made(*one), &made(*two))]);

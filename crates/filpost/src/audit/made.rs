@@ -36,6 +36,9 @@ pub(super) struct Made {
     pub nc_line: u32,
     /// What made it.
     pub cause: Cause,
+    /// The record in whose place it stands: that of its cause, unless a later one has made a block
+    /// before it, as for a message that waits for a tool change.
+    pub place: u32,
     /// Its words without the sequence number.
     pub words: Vec<Word>,
 }
@@ -81,6 +84,8 @@ pub(super) struct Blocks<'s, R> {
     lines: Lines<'s>,
     name: &'s str,
     next: Option<Made>,
+    /// The last record that has made a block.
+    place: u32,
 }
 
 impl<'s, R: Read + Seek> Blocks<'s, R> {
@@ -90,17 +95,18 @@ impl<'s, R: Read + Seek> Blocks<'s, R> {
     /// A map that is none, a program that can't be read.
     pub fn new(map: R, map_name: &str, nc: (&'s Source<'s>, &'s str)) -> Result<Self, Error> {
         let map = MapReader::new(map_name, map)?;
-        let mut blocks = Blocks { map, lines: Lines::from(nc.0, 0), name: nc.1, next: None };
+        let lines = Lines::from(nc.0, 0);
+        let mut blocks = Blocks { map, lines, name: nc.1, next: None, place: 0 };
         blocks.next = blocks.read()?;
         Ok(blocks)
     }
 
-    /// The record of the next block; `None` at the end.
+    /// The record in whose place the next block stands; `None` at the end.
     pub fn record(&self) -> Option<u32> {
-        self.next.as_ref().map(|made| made.cause.record)
+        self.next.as_ref().map(|made| made.place)
     }
 
-    /// The blocks up to the next one that another record made.
+    /// The blocks up to the next one in the place of another record.
     ///
     /// # Errors
     /// A map that is none, a program that can't be read.
@@ -131,7 +137,9 @@ impl<'s, R: Read + Seek> Blocks<'s, R> {
                 is_spelt: word.cause.made_by_fil && word.cause.word != 0,
             });
             let nc_line = u32::try_from(line.number).unwrap_or(u32::MAX);
-            return Ok(Some(Made { nc_line, cause: line.cause, words: words.collect() }));
+            let (cause, words) = (line.cause, words.collect());
+            self.place = self.place.max(cause.record);
+            return Ok(Some(Made { nc_line, cause, place: self.place, words }));
         }
         Ok(None)
     }
