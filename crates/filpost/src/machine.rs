@@ -164,6 +164,9 @@ fn meant(name: &str) -> String {
     let maker = name.split('-').next().unwrap_or_default().to_ascii_lowercase();
     let of_maker: Vec<&str> = known().filter(|post| post.starts_with(&maker)).collect();
     match suggest::did_you_mean(name, known()) {
+        _ if name.contains(['/', '.']) => {
+            format!("a machine.toml or an option file is given by --machine {name}")
+        }
         Some(near) => format!("{near} `filpost posts` lists all of them."),
         None if maker.is_empty() || of_maker.is_empty() => {
             format!("there are {}", known().collect::<Vec<_>>().join(", "))
@@ -183,6 +186,7 @@ mod tests {
         assert!(haas.starts_with("did you mean haas-"), "{haas}");
         assert!(haas.contains(" or haas-trunnion") && !haas.contains("fanuc"), "{haas}");
         assert!(meant("kuka").starts_with("there are brother-mill"));
+        assert!(meant("machine.toml").ends_with("--machine machine.toml"));
         assert!(meant("").starts_with("there are brother-mill"));
     }
 }
