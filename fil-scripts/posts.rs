@@ -66,6 +66,7 @@ ready![
     "linuxcnc-mill",
     "mach3-mill",
     "mach4-mill",
+    "marlin-mill",
     "masso-mill",
     "mazak-5x",
     "mazak-mill",

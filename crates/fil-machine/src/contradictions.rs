@@ -168,8 +168,12 @@ fn rapid_rules(commons: &Commons, found: &mut Vec<Diag>) {
             "rapid.address is {letter}, and rapid.value gives the word no number"
         )));
     }
+    // Each feed move behind a rapid says its F again, so that F may be the rate of rapids.
+    let feed_stays = !commons.read(loc::RAPID_REPEAT_FEED);
     if let Some(letter) = word.0
-        && (letter::letters::XYZ.contains(&letter) || b"ABCDFGHIJKMNORST".contains(&letter.byte()))
+        && (letter::letters::XYZ.contains(&letter)
+            || b"ABCDGHIJKMNORST".contains(&letter.byte())
+            || letter.byte() == b'F' && feed_stays)
     {
         found.push(contradiction(format!("{letter} is the word of rapids and something else")));
     }

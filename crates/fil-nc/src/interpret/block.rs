@@ -251,7 +251,8 @@ impl State<'_> {
         if course == Course::Rapid
             && let Some((letter, value)) = self.dialect.forms.rapid_word
         {
-            let word = words.take(letter)?;
+            // F stands in the block or in one before it.
+            let word = if letter == F { self.feed.word } else { words.take(letter)? };
             if word.is_none_or(|word| (word - value).abs() > RAPID_WORD) {
                 let message = format!("a rapid needs its word of {value}");
                 return Err(Fault::new(NcCode::MissingWord, message));
