@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use filpost::cl::reader::Options;
 use filpost::map::MapReader;
-use filpost::nc::plot::{Drawing, Trace, View, html, svg};
+use filpost::nc::plot::{Drawing, Trace, View, svg, write_html};
 use filpost::nc::source::Source;
 use filpost::plot::{self, ClText, Text};
 use filpost::{Error, files, select};
@@ -50,21 +50,23 @@ pub fn run(args: &PlotArgs) -> Result<Status, Error> {
         ));
         return Ok(Status::Usage);
     }
-    let read = [Some(&args.file), args.cl.as_ref(), args.second.as_ref(), args.map.as_ref()];
-    let mut inputs: Vec<PathBuf> = read.into_iter().flatten().cloned().collect();
+    let names = [Some(&args.file), args.cl.as_ref(), args.second.as_ref(), args.map.as_ref()];
+    let mut inputs: Vec<PathBuf> = names.into_iter().flatten().cloned().collect();
+    let (cl, second) = (beside(args.cl.as_deref())?, beside(args.second.as_deref())?);
+    let [cl, second] =
+        [&cl, &second].map(|beside| beside.as_ref().map(|(name, bytes)| Text { name, bytes }));
     let (drawing, machine) = if is_cl {
         (plot::cl_file(cl_text(args, text)?)?, None)
     } else {
-        let (drawing, title) = program(args, text, &mut inputs)?;
+        let (drawing, title) = program(args, text, (cl, second), &mut inputs)?;
         (drawing, Some(title))
     };
     let output = output::named(named);
     output::refuse_over([output], inputs.iter().map(PathBuf::as_path))?;
-    let picture = match form {
-        Form::Svg => svg(&drawing, &views(&args.view)),
-        Form::Html => html(&drawing),
+    let write = |out: &mut dyn Write| match form {
+        Form::Svg => out.write_all(svg(&drawing, &views(&args.view)).as_bytes()),
+        Form::Html => write_html(&drawing, out),
     };
-    let write = |out: &mut dyn Write| out.write_all(picture.as_bytes());
     Target::new(named).write(|mut out| {
         let path = named.unwrap_or(Path::new(""));
         write(&mut out).map_err(|error| files::cant_write(path, &error))
@@ -116,26 +118,22 @@ fn cl_text<'t>(args: &PlotArgs, text: Text<'t>) -> Result<ClText<'t>, Error> {
 
 /// A program, with the CL file under it and the map's notes where they are given; and
 /// what its machine is called. What is read besides is added to the inputs.
-fn program(
+fn program<'t>(
     args: &PlotArgs,
-    nc: Text<'_>,
+    nc: Text<'t>,
+    (cl, second): (Option<Text<'t>>, Option<Text<'t>>),
     inputs: &mut Vec<PathBuf>,
-) -> Result<(Drawing, String), Error> {
-    let cl = args.cl.as_ref().map(|path| Ok::<_, Error>((path, read(path)?))).transpose()?;
-    let named = machine(args, nc, cl.as_ref().map(|(path, bytes)| (path.as_path(), &bytes[..])))?;
+) -> Result<(Drawing<'t>, String), Error> {
+    let named = machine(args, nc, args.cl.as_deref().zip(cl))?;
     inputs.extend(named.inputs);
     let (program, title) = (named.builder.build()?, named.title);
     let mut drawing = plot::program(nc, program.commons())?;
-    if let Some((path, bytes)) = &cl {
-        let name = output::input_name(path);
-        let cl = cl_text(args, Text { name: &name, bytes })?;
-        plot::lay_under(&mut drawing, cl, program.commons())?;
+    if let Some(cl) = cl {
+        plot::lay_under(&mut drawing, cl_text(args, cl)?, program.commons())?;
     }
-    if let Some(path) = &args.second {
-        let (name, bytes) = (output::input_name(path), read(path)?);
-        let second = Text { name: &name, bytes: &bytes };
+    if let Some(second) = second {
         plot::lay_program_under(&mut drawing, second, program.commons())?;
-        tell_left_out(&name, drawing.under.as_ref().unwrap_or(&drawing.path));
+        tell_left_out(second.name, drawing.under.as_ref().unwrap_or(&drawing.path));
     }
     if let Some(path) = &args.map {
         origins(&mut drawing, nc, path, inputs)?;
@@ -148,7 +146,7 @@ fn program(
 }
 
 fn origins(
-    drawing: &mut Drawing,
+    drawing: &mut Drawing<'_>,
     nc: Text<'_>,
     path: &Path,
     inputs: &mut Vec<PathBuf>,
@@ -163,18 +161,16 @@ fn origins(
 
 /// The machine of the command line, else the one that the CL file asks for, else the
 /// generic mill of the program's family.
-fn machine(args: &PlotArgs, nc: Text<'_>, cl: Option<(&Path, &[u8])>) -> Result<Named, Error> {
+fn machine(args: &PlotArgs, nc: Text<'_>, cl: Option<(&Path, Text<'_>)>) -> Result<Named, Error> {
     let source = Source::memory(nc.bytes);
     let encoding = args.encoding.as_deref();
     match cl {
-        Some((path, bytes)) => {
+        Some((path, Text { name, bytes })) => {
             let folders = select::beside_first(path, &[]);
             let options = options(args)?;
-            let name = output::input_name(path);
-            let from =
-                setup::from(&args.chosen, &folders, || select::asked(bytes, &name, options))?
-                    .or_text_of(&args.chosen, &source, nc.name)?;
-            setup::confirm(&from, || select::machines(bytes, &name, options), &name)?;
+            let from = setup::from(&args.chosen, &folders, || select::asked(bytes, name, options))?
+                .or_text_of(&args.chosen, &source, nc.name)?;
+            setup::confirm(&from, || select::machines(bytes, name, options), name)?;
             setup::machine(&args.chosen, encoding, &from)
         }
         None => {
@@ -201,6 +197,11 @@ fn views(seen: &[Seen]) -> Vec<View> {
         Seen::Iso => View::Isometric,
     };
     if seen.is_empty() { View::ALL.to_vec() } else { seen.iter().map(view).collect() }
+}
+
+/// The name and the bytes of a file that is drawn beside the program.
+fn beside(path: Option<&Path>) -> Result<Option<(String, Vec<u8>)>, Error> {
+    path.map(|path| Ok((output::input_name(path), read(path)?))).transpose()
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Error> {

@@ -16,9 +16,8 @@ pub fn arrays<'py>(py: Python<'py>, trace: Trace) -> PyResult<Bound<'py, PyDict>
     let points: Bound<'py, PyArray2<f64>> = points.reshape([count, 3])?;
     let dict = PyDict::new(py);
     let code = |stroke| Stroke::ALL.iter().position(|known| *known == stroke).unwrap_or(0) as u8;
-    let column = |of: &dyn Fn(usize) -> usize| (0..pieces.len()).map(|n| of(n) as u64).collect();
-    let starts: Vec<u64> = column(&|n| pieces[n].start);
-    let ends: Vec<u64> = column(&|n| pieces[n].end);
+    let starts: Vec<u64> = pieces.iter().map(|piece| piece.start.into()).collect();
+    let ends: Vec<u64> = pieces.iter().map(|piece| piece.end.into()).collect();
     let strokes: Vec<u8> = pieces.iter().map(|piece| code(piece.stroke)).collect();
     let lines: Vec<u32> = pieces.iter().map(|piece| piece.line).collect();
     dict.set_item("points", points)?;

@@ -127,12 +127,12 @@ fn draw(
     name: Option<String>,
     dialect: Option<&str>,
     unit: Option<&str>,
-) -> PyResult<filpost::nc::plot::Drawing> {
+) -> PyResult<filpost::nc::plot::Drawing<'static>> {
     let (options, unit) = (build::reading(dialect, false)?, build::unit(unit)?);
     let (bytes, name) = cl.read(py, name)?;
     let text = Text { name: &name, bytes: &bytes };
     let drawn = py.detach(|| plot::cl_file(ClText { text, options, unit }));
-    drawn.map_err(|error| diag::error(py, &error))
+    Ok(drawn.map_err(|error| diag::error(py, &error))?.into_owned())
 }
 
 /// The text of an NC program.

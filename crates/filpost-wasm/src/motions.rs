@@ -59,7 +59,7 @@ impl Arrays {
             while let Some((_, next)) = axes.next_if(|(from, _)| *from <= index) {
                 axis = *next;
             }
-            let Some(points) = path.points.get(piece.start..piece.end) else { continue };
+            let Some(points) = path.points.get(piece.range()) else { continue };
             self.begin(points[0], piece.line, now, axis);
             for to in &points[1..] {
                 self.add(*to, piece.stroke, false, (piece.line, now, axis));

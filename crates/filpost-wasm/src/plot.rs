@@ -56,7 +56,7 @@ impl Plot {
 
     /// The path of the program, with the tools of the CL file; without a program that of the CL
     /// file.
-    fn path(&self) -> Result<Drawing, Error> {
+    fn path(&self) -> Result<Drawing<'_>, Error> {
         let cl = ClText {
             text: Text { name: &self.cl_name, bytes: self.cl.as_bytes() },
             options: Options::default(),
@@ -70,10 +70,10 @@ impl Plot {
         Ok(drawing)
     }
 
-    fn program(&self, nc: &str, commons: &Commons) -> Result<Drawing, Error> {
+    fn program(&self, nc: &str, commons: &Commons) -> Result<Drawing<'static>, Error> {
         let encoded = filpost::tape_style::page(commons).encode(nc);
         let bytes = encoded.as_deref().unwrap_or(nc.as_bytes());
-        plot::program(Text { name: "the program", bytes }, commons)
+        Ok(plot::program(Text { name: "the program", bytes }, commons)?.into_owned())
     }
 
     /// The page with the path of the program, whose lines name what made them.

@@ -1,5 +1,6 @@
 //! Drawings of NC programs and CL files, with what the line map tells of them.
 
+use std::borrow::Cow;
 use std::io::{Read, Seek};
 
 use fil_cl::reader::{Options, Reader};
@@ -71,7 +72,7 @@ pub fn is_cl(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// What has no sure meaning on the machine.
-pub fn program(nc: Text<'_>, commons: &Commons) -> Result<Drawing, Error> {
+pub fn program<'t>(nc: Text<'t>, commons: &Commons) -> Result<Drawing<'t>, Error> {
     let dialect = Dialect::new(commons).map_err(Error::Run)?;
     let forward = Forward::from_commons(commons).map_err(Error::Run)?;
     Ok(Drawing {
@@ -89,7 +90,7 @@ pub fn program(nc: Text<'_>, commons: &Commons) -> Result<Drawing, Error> {
 ///
 /// # Errors
 /// What the CL reader refuses; a file whose unit nobody says.
-pub fn cl_file(cl: ClText<'_>) -> Result<Drawing, Error> {
+pub fn cl_file(cl: ClText<'_>) -> Result<Drawing<'_>, Error> {
     let (path, tools) = (cl.trace(None)?, cl.tools()?);
     let cl = cl.text;
     let notes = notes(cl.bytes);
@@ -101,9 +102,9 @@ pub fn cl_file(cl: ClText<'_>) -> Result<Drawing, Error> {
 ///
 /// # Errors
 /// What the CL reader refuses; a file whose unit nobody says, or says twice.
-pub fn lay_under(
-    drawing: &mut Drawing,
-    mut cl: ClText<'_>,
+pub fn lay_under<'t>(
+    drawing: &mut Drawing<'t>,
+    mut cl: ClText<'t>,
     commons: &Commons,
 ) -> Result<(), Error> {
     let known = units::known_before(cl.unit, None, commons).map_err(Error::Run)?;
@@ -122,9 +123,9 @@ pub fn lay_under(
 ///
 /// # Errors
 /// As [`program`].
-pub fn lay_program_under(
-    drawing: &mut Drawing,
-    second: Text<'_>,
+pub fn lay_program_under<'t>(
+    drawing: &mut Drawing<'t>,
+    second: Text<'t>,
     commons: &Commons,
 ) -> Result<(), Error> {
     let under = program(second, commons)?;
@@ -139,7 +140,11 @@ pub fn lay_program_under(
 ///
 /// # Errors
 /// As [`lay_under`].
-pub fn take_tools(drawing: &mut Drawing, cl: ClText<'_>, commons: &Commons) -> Result<(), Error> {
+pub fn take_tools<'t>(
+    drawing: &mut Drawing<'t>,
+    cl: ClText<'t>,
+    commons: &Commons,
+) -> Result<(), Error> {
     if drawing.lathe {
         lay_under(drawing, cl, commons)?;
         drawing.under = None;
@@ -156,7 +161,7 @@ pub fn take_tools(drawing: &mut Drawing, cl: ClText<'_>, commons: &Commons) -> R
 /// # Errors
 /// A map that is broken, or not of this program.
 pub fn add_origins<R: Read + Seek>(
-    drawing: &mut Drawing,
+    drawing: &mut Drawing<'_>,
     nc: Text<'_>,
     map: MapReader<R>,
     read: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
@@ -169,7 +174,7 @@ pub fn add_origins<R: Read + Seek>(
 /// # Errors
 /// As [`add_origins`].
 pub fn note_origins<R: Read + Seek>(
-    notes: &mut Notes,
+    notes: &mut Notes<'_>,
     nc: Text<'_>,
     mut map: MapReader<R>,
     read: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
@@ -177,7 +182,7 @@ pub fn note_origins<R: Read + Seek>(
     map.nc().check(nc.name, &Digest::of(nc.bytes))?;
     let mut text_of = |file: &crate::map::MapFile| {
         let bytes = read(&file.name).filter(|bytes| Digest::of(bytes) == file.digest);
-        bytes.filter(|bytes| bytes.len() <= LONGEST_SOURCE).map(|bytes| text(&bytes))
+        bytes.filter(|bytes| bytes.len() <= LONGEST_SOURCE).map(|bytes| text(&bytes).into_owned())
     };
     notes.source_name = map.cl().name.clone();
     notes.source = text_of(map.cl());
@@ -204,18 +209,22 @@ pub fn note_origins<R: Read + Seek>(
 }
 
 /// The lines of a text, for people.
-fn notes(bytes: &[u8]) -> Notes {
+fn notes(bytes: &[u8]) -> Notes<'_> {
     Notes { text: text(bytes), ..Notes::default() }
 }
 
 /// The text of a program in the encoding of its machine.
-fn nc_text(bytes: &[u8], page: CodePage) -> String {
-    if page.is_utf8() { text(bytes) } else { page.decode_all(bytes).replace("\r\n", "\n") }
+fn nc_text(bytes: &[u8], page: CodePage) -> Cow<'_, str> {
+    if page.is_utf8() { text(bytes) } else { plain(page.decode_all(bytes)) }
 }
 
 /// A text in any encoding, its lines without what stands behind them.
-fn text(bytes: &[u8]) -> String {
-    let text = fil_syntax::decode(bytes, None)
-        .map_or_else(|_| String::from_utf8_lossy(bytes), |(text, _)| text);
-    if text.contains('\r') { text.replace("\r\n", "\n") } else { text.into_owned() }
+fn text(bytes: &[u8]) -> Cow<'_, str> {
+    let text = fil_syntax::decode(bytes, None);
+    plain(text.map_or_else(|_| String::from_utf8_lossy(bytes), |(text, _)| text))
+}
+
+/// A text whose lines end as those of pages do.
+fn plain(text: Cow<'_, str>) -> Cow<'_, str> {
+    if text.contains('\r') { text.replace("\r\n", "\n").into() } else { text }
 }

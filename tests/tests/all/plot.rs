@@ -65,7 +65,7 @@ fn cl_text(text: Text<'_>) -> ClText<'_> {
 }
 
 /// The drawing of [`CL`], posted with [`FIL`], with the notes of its map.
-fn drawing() -> Drawing {
+fn drawing() -> Drawing<'static> {
     let fil = FIL.replace("(G)", "7").replace("(X)", "24").replace("(Y)", "25");
     let post = Program::builder().generic("fanuc-mill").fil("mill.fil", &fil).build().unwrap();
     let names =
@@ -83,11 +83,11 @@ fn drawing() -> Drawing {
         _ => Some(fil.clone().into()),
     })
     .unwrap();
-    drawing
+    drawing.into_owned()
 }
 
 /// A program of many motions: a spiral in small steps.
-fn spiral(count: u32) -> Drawing {
+fn spiral(count: u32) -> Drawing<'static> {
     let mut nc = String::from("G21 G90 G94 G17\nG0 X0. Y0. Z5.\nG1 Z0. F500.\n");
     for step in 0..count {
         let (sine, cosine) = (f64::from(step) * 0.002).sin_cos();
@@ -96,7 +96,8 @@ fn spiral(count: u32) -> Drawing {
     }
     nc.push_str("M30\n");
     let post = Program::builder().generic("fanuc-mill").build().unwrap();
-    plot::program(Text { name: "spiral.nc", bytes: nc.as_bytes() }, post.commons()).unwrap()
+    let text = Text { name: "spiral.nc", bytes: nc.as_bytes() };
+    plot::program(text, post.commons()).unwrap().into_owned()
 }
 
 fn said(browser: &std::path::Path, page: &str) -> Value {
@@ -229,7 +230,7 @@ fn a_live_tool_of_a_lathe_lies_as_in_the_cl_file() {
     let at = |point: [f64; 3]| {
         let near = |end: &[f64; 3]| (0..3).all(|axis| (end[axis] - point[axis]).abs() < 0.01);
         let piece =
-            trace.pieces.iter().position(|piece| near(&trace.points[piece.end - 1])).unwrap();
+            trace.pieces.iter().position(|piece| near(&trace.points[piece.last()])).unwrap();
         trace.axes.iter().rev().find(|(from, _)| *from <= piece).map(|(_, axis)| *axis)
     };
     assert_eq!(at([22.0, 0.0, -60.0]), Some([0.0; 3]), "a turning tool has none");
@@ -323,11 +324,11 @@ fn a_program_without_motions_opens() {
 }
 
 /// A drawing of the program that a ready post makes of a CL file.
-fn posted(ready: &str, cl: &str) -> Drawing {
+fn posted(ready: &str, cl: &str) -> Drawing<'static> {
     let post = Program::builder().generic(ready).build().unwrap();
     let mut nc = Vec::new();
     post.start().stream(Cursor::new(cl.to_string()), &mut nc).unwrap();
-    plot::program(Text { name: "out.nc", bytes: &nc }, post.commons()).unwrap()
+    plot::program(Text { name: "out.nc", bytes: &nc }, post.commons()).unwrap().into_owned()
 }
 
 /// The pictures of pages in docs/plot.md, as a browser shows them after a few touches;
@@ -336,7 +337,7 @@ fn posted(ready: &str, cl: &str) -> Drawing {
 #[test]
 fn the_pages_of_the_docs_are_screenshots() {
     let pages = [
-        ("plot-page.png", drawing as fn() -> Drawing, include_str!("../../plot/hover.js")),
+        ("plot-page.png", drawing as fn() -> Drawing<'static>, include_str!("../../plot/hover.js")),
         (
             "plot-five-axes.png",
             || posted("fanuc-5x-tables", &tilting_row()),
@@ -455,12 +456,12 @@ fn a_turning_table_is_drawn_on_the_part() {
     let drawing = plot::program(Text { name: "figure-3.nc", bytes: &nc }, post.commons()).unwrap();
     let path = &drawing.path;
     let turning = path.pieces.iter().filter(|piece| {
-        let points = &path.points[piece.start..piece.end];
+        let points = &path.points[piece.range()];
         piece.stroke == Stroke::Feed && points.first().map(|p| p[1]) != points.last().map(|p| p[1])
     });
     let mut count = 0;
     for piece in turning {
-        for point in &path.points[piece.start..piece.end] {
+        for point in &path.points[piece.range()] {
             let radius = point[0].hypot(point[2]);
             assert!((radius - 81.0).abs() < 1e-6, "line {}: {point:?}", piece.line);
             count += 1;

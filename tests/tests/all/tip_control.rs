@@ -162,7 +162,7 @@ fn the_picture_shows_the_tip_going_straight() {
         let path = plot::program(text, case.post.commons()).expect("a picture").path;
         let straight = case.name.ends_with("tip");
         for piece in &path.pieces {
-            let points = &path.points[piece.start..piece.end];
+            let points = &path.points[piece.range()];
             let end = points.last().expect("an end");
             let near = |point: &&[f64; 3]| (0..3).all(|n| (point[n] - end[n]).abs() < 3e-3);
             assert!(cl_points.iter().any(|point| near(&point)), "{}: {end:?}", case.name);

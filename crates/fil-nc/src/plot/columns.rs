@@ -26,18 +26,14 @@ const ALIGNED: usize = 8;
 /// | `axesFrom`, `axes` | u32; f32, three a row | direction of the tool from a piece on |
 /// | `rotaryFrom`, `rotary` | u32; f32, two a row | rotary axes at the end of a piece and after it, degrees |
 /// | `changeFrom`, `changeTool`, `changeLine`, `changeAt` | u32; f32, three a row | tool changes |
-pub fn columns(drawing: &Drawing) -> Vec<u8> {
+pub fn columns(drawing: &Drawing<'_>) -> Vec<u8> {
     let path = &drawing.path;
     let extent = Extent::of(&path.points).unwrap_or(Extent { min: [0.0; 3], max: [0.0; 3] });
     let base = std::array::from_fn(|axis| (extent.min[axis] + extent.max[axis]) / 2.0);
     let mut columns = Columns::default();
     columns.add("points", "f32", path.points.iter().flat_map(|point| beside(point, &base)));
-    columns.add(
-        "starts",
-        "u32",
-        path.pieces.iter().map(|piece| (piece.start as u32).to_le_bytes()),
-    );
-    columns.add("ends", "u32", path.pieces.iter().map(|piece| (piece.end as u32).to_le_bytes()));
+    columns.add("starts", "u32", path.pieces.iter().map(|piece| piece.start.to_le_bytes()));
+    columns.add("ends", "u32", path.pieces.iter().map(|piece| piece.end.to_le_bytes()));
     columns.add("strokes", "u8", path.pieces.iter().map(|piece| [stroke(piece.stroke)]));
     columns.add("lines", "u32", path.pieces.iter().map(|piece| piece.line.to_le_bytes()));
     columns.add("seconds", "f64", time::ends(path).into_iter().map(f64::to_le_bytes));
@@ -144,7 +140,7 @@ impl Columns {
 }
 
 /// The fields of the head besides the table of contents.
-fn head(drawing: &Drawing, extent: &Extent, base: &Point) -> String {
+fn head(drawing: &Drawing<'_>, extent: &Extent, base: &Point) -> String {
     let left_out = drawing.path.left_out.iter().map(|left_out| {
         let why = json(&left_out.why);
         format!("{{\"line\":{},\"count\":{},\"why\":{why}}}", left_out.line, left_out.count)

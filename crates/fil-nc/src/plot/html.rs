@@ -1,6 +1,8 @@
 //! A page of one file: the path on a canvas, and a script that zooms, turns and
 //! tells of what lies under the pointer.
 
+use std::io::{self, Write};
+
 use fil_machine::Unit;
 
 use super::encode::json;
@@ -26,37 +28,41 @@ const SCRIPT: &str = concat!(
 );
 
 /// The page. It needs no other file and no server.
-pub fn html(drawing: &Drawing) -> String {
+pub fn html(drawing: &Drawing<'_>) -> String {
+    let mut page = Vec::new();
+    // What is written is text, and a vector takes all of it.
+    let _ = write_html(drawing, &mut page);
+    String::from_utf8(page).unwrap_or_default()
+}
+
+/// Writes the page. No more of it is in memory than the writer keeps.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_html(drawing: &Drawing<'_>, out: &mut dyn Write) -> io::Result<()> {
     let extent = drawing.extent();
-    let fields = [
-        ("{{title}}", escape(&drawing.title)),
-        ("{{style}}", STYLE.to_string()),
-        ("{{extent}}", extent.map_or(String::new(), |extent| sides(&extent, drawing))),
-        ("{{data}}", data(drawing, extent)),
-        ("{{script}}", SCRIPT.to_string()),
-    ];
-    let mut page = String::new();
     let mut rest = PAGE;
-    while let Some(at) = rest.find("{{") {
-        page.push_str(&rest[..at]);
-        rest = &rest[at..];
-        match fields.iter().find(|(name, _)| rest.starts_with(name)) {
-            Some((name, text)) => {
-                page.push_str(text);
-                rest = &rest[name.len()..];
+    while let Some((text, (name, behind))) =
+        rest.split_once("{{").and_then(|(text, rest)| Some((text, rest.split_once("}}")?)))
+    {
+        out.write_all(text.as_bytes())?;
+        match name {
+            "title" => out.write_all(escape(&drawing.title).as_bytes()),
+            "style" => out.write_all(STYLE.as_bytes()),
+            "extent" => {
+                let sides = extent.map_or(String::new(), |extent| sides(&extent, drawing));
+                out.write_all(sides.as_bytes())
             }
-            None => {
-                page.push_str("{{");
-                rest = &rest[2..];
-            }
-        }
+            "data" => data(drawing, extent, out),
+            _ => out.write_all(SCRIPT.as_bytes()),
+        }?;
+        rest = behind;
     }
-    page.push_str(rest);
-    page
+    out.write_all(rest.as_bytes())
 }
 
 /// What the script reads.
-fn data(drawing: &Drawing, extent: Option<Extent>) -> String {
+fn data(drawing: &Drawing<'_>, extent: Option<Extent>, out: &mut dyn Write) -> io::Result<()> {
     let extent = extent.unwrap_or(Extent { min: [0.0; 3], max: [0.0; 3] });
     let grid = Grid::new(&extent, drawing.path.unit());
     let strokes = Stroke::ALL.map(|stroke| {
@@ -67,7 +73,7 @@ fn data(drawing: &Drawing, extent: Option<Extent>) -> String {
     let source = notes.source.as_deref().unwrap_or_default();
     let is_under = drawing.under.is_some() && source == drawing.under_notes.text;
     let source = if is_under { "" } else { source };
-    let mut fields = vec![
+    let fields = [
         ("step", grid.step.to_string()),
         ("min", list(extent.min)),
         ("max", list(extent.max)),
@@ -79,14 +85,18 @@ fn data(drawing: &Drawing, extent: Option<Extent>) -> String {
         ("diameter", drawing.diameter.to_string()),
         ("underName", json(drawing.under_name)),
         ("sourceIsUnder", is_under.to_string()),
-        ("path", pack::trace(&drawing.path, notes, source, &grid)),
     ];
-    if let Some(under) = &drawing.under {
-        fields.push(("under", pack::trace(under, &drawing.under_notes, "", &grid)));
+    out.write_all(b"{")?;
+    for (name, value) in fields {
+        write!(out, "\"{name}\":{value},\n")?;
     }
-    let fields: Vec<String> =
-        fields.into_iter().map(|(name, value)| format!("\"{name}\":{value}")).collect();
-    format!("{{{}}}", fields.join(",\n"))
+    out.write_all(b"\"path\":")?;
+    pack::trace(&drawing.path, notes, source, &grid, out)?;
+    if let Some(under) = &drawing.under {
+        out.write_all(b",\n\"under\":")?;
+        pack::trace(under, &drawing.under_notes, "", &grid, out)?;
+    }
+    out.write_all(b"}")
 }
 
 fn list([x, y, z]: Point) -> String {

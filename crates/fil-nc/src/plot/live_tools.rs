@@ -16,12 +16,12 @@ const NONE: Point = [0.0; 3];
 /// Takes the directions of tools that lie square to Z from the path of the CL file, where
 /// motions of both end at the same points and the CL file has one direction there. Other
 /// motions of a lathe have none.
-pub(super) fn take_axes(drawing: &mut Drawing) {
+pub(super) fn take_axes(drawing: &mut Drawing<'_>) {
     let Some(under) = drawing.under.as_ref().filter(|_| drawing.lathe) else { return };
     let ends = ends(under);
     let mut axes = Vec::new();
     for (at, piece) in drawing.path.pieces.iter().enumerate() {
-        let axis = axis_at(&ends, &drawing.path.points[piece.end - 1]).unwrap_or(NONE);
+        let axis = axis_at(&ends, &drawing.path.points[piece.last()]).unwrap_or(NONE);
         if axes.last().map_or(NONE, |(_, axis)| *axis) != axis {
             axes.push((at, axis));
         }
@@ -44,7 +44,7 @@ fn ends(trace: &Trace) -> Ends {
         while let Some((_, next)) = rows.next_if(|(from, _)| *from <= at) {
             axis = *next;
         }
-        let end = trace.points[piece.end - 1];
+        let end = trace.points[piece.last()];
         ends.entry(cell(&end)).or_default().push((end, axis));
     }
     ends

@@ -28,12 +28,15 @@ mod tests;
 
 pub use columns::columns;
 pub use encode::base64;
-pub use html::html;
+pub use html::{html, write_html};
 pub use program::nc_trace;
 pub use svg::svg;
 pub use tools::{ToolShape, cl_tools};
 pub use trace::cl_trace;
 pub use view::{Extent, View};
+
+use std::borrow::Cow;
+use std::ops::Range;
 
 use fil_machine::Unit;
 
@@ -96,9 +99,21 @@ pub struct Piece {
     pub line: u32,
     /// Index of its first point; the last one is the first of the next piece, or
     /// that before `end`.
-    pub start: usize,
+    pub start: u32,
     /// One past the index of its last point.
-    pub end: usize,
+    pub end: u32,
+}
+
+impl Piece {
+    /// Where its points lie among those of the path.
+    pub fn range(&self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
+
+    /// Index of its last point.
+    pub fn last(&self) -> usize {
+        self.end as usize - 1
+    }
 }
 
 /// A tool change.
@@ -180,12 +195,12 @@ pub struct Trace {
 impl Trace {
     /// Length of a piece, mm.
     fn length(&self, piece: usize) -> f64 {
-        let piece = &self.pieces[piece];
+        let points = &self.points[self.pieces[piece].range()];
         let step = |pair: &[Point]| {
             let ways = [0, 1, 2].map(|n| pair[1][n] - pair[0][n]);
             ways.map(|way| way * way).iter().sum::<f64>().sqrt()
         };
-        self.points[piece.start..piece.end].windows(2).map(step).sum()
+        points.windows(2).map(step).sum()
     }
 
     /// The unit in which lengths are told.
@@ -205,9 +220,9 @@ pub struct LineCause {
 
 /// What is said of lines when their pieces are pointed at.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Notes {
+pub struct Notes<'t> {
     /// The program or the CL file.
-    pub text: String,
+    pub text: Cow<'t, str>,
     /// What made each of its lines; may be shorter than the text.
     pub causes: Vec<LineCause>,
     /// What the CL file of the causes is called.
@@ -218,7 +233,12 @@ pub struct Notes {
     pub stacks: Vec<String>,
 }
 
-impl Notes {
+impl Notes<'_> {
+    /// The same with a text of its own.
+    pub fn into_owned(self) -> Notes<'static> {
+        Notes { text: self.text.into_owned().into(), ..self }
+    }
+
     /// What made a line, 1-based: the line of the CL file, then those of FIL.
     pub fn origin(&self, line: usize) -> String {
         let Some(cause) = line.checked_sub(1).and_then(|at| self.causes.get(at)) else {
@@ -239,7 +259,7 @@ impl Notes {
 
 /// All that a picture shows.
 #[derive(Clone, Debug, Default)]
-pub struct Drawing {
+pub struct Drawing<'t> {
     /// Heading.
     pub title: String,
     /// The path.
@@ -253,16 +273,22 @@ pub struct Drawing {
     /// What the path under it is called in a legend.
     pub under_name: &'static str,
     /// Notes on the lines of the path.
-    pub notes: Notes,
+    pub notes: Notes<'t>,
     /// Notes on the lines of the path under it.
-    pub under_notes: Notes,
+    pub under_notes: Notes<'t>,
     /// Tools whose shape is known.
     pub tools: Vec<ToolShape>,
     /// The rotary axes, primary first; `None` without any.
     pub forward: Option<Forward>,
 }
 
-impl Drawing {
+impl Drawing<'_> {
+    /// The same with texts of its own.
+    pub fn into_owned(self) -> Drawing<'static> {
+        let notes = self.notes.into_owned();
+        Drawing { notes, under_notes: self.under_notes.into_owned(), ..self }
+    }
+
     /// Takes what a program can't say from the path under it: how the live tools of a lathe lie.
     pub fn take_tool_axes(&mut self) {
         live_tools::take_axes(self);

@@ -1,9 +1,11 @@
 //! A trace as the script of the page reads it.
 
+use std::io::{self, Write};
+
 use fil_machine::Unit;
 
-use super::encode::{columns, json, packed};
-use super::spelled::spelled;
+use super::encode::{Packer, columns, json};
+use super::spelled::spell;
 use super::{Extent, InForce, Notes, Point, Stroke, Trace};
 use crate::motion::{Rate, Speed, Spindle};
 
@@ -54,64 +56,74 @@ impl Grid {
     }
 }
 
-/// A trace with its notes, as JSON; `source` is the text of the CL file of its causes.
-pub(super) fn trace(trace: &Trace, notes: &Notes, source: &str, grid: &Grid) -> String {
-    let points = columns(trace.points.iter().map(|point| grid.steps(point)));
-    let changes = columns(trace.changes.iter().map(|change| {
-        let [x, y, z] = grid.steps(&change.at);
-        [change.from as i64, x, y, z, change.tool.into(), change.line.into()]
-    }));
-    let axes = columns(trace.axes.iter().map(|(from, axis)| {
+/// Writes a trace with its notes, as JSON; `source` is the text of the CL file of its causes.
+pub(super) fn trace(
+    trace: &Trace,
+    notes: &Notes<'_>,
+    source: &str,
+    grid: &Grid,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    out.write_all(b"{\"points\":")?;
+    columns(out, trace.points.iter().map(|point| grid.steps(point)))?;
+    out.write_all(b",\n\"pieces\":")?;
+    pieces(trace, out)?;
+    out.write_all(b",\n\"inForce\":")?;
+    columns(out, trace.in_force.iter().map(in_force))?;
+    out.write_all(b",\n\"axes\":")?;
+    let axes = trace.axes.iter().map(|(from, axis)| {
         let [i, j, k] = axis.map(|part| (part * FINE).round() as i64);
         [*from as i64, i, j, k]
-    }));
-    let causes = columns(notes.causes.iter().map(|cause| [cause.line.into(), cause.stack.into()]));
+    });
+    columns(out, axes)?;
+    out.write_all(b",\n\"changes\":")?;
+    let changes = trace.changes.iter().map(|change| {
+        let [x, y, z] = grid.steps(&change.at);
+        [change.from as i64, x, y, z, change.tool.into(), change.line.into()]
+    });
+    columns(out, changes)?;
+    out.write_all(b",\n\"text\":")?;
+    let mut text = Packer::new(out)?;
+    let is_spelled = spell(&notes.text, trace, grid, &mut |part| text.add(part))?;
+    text.finish()?;
+    out.write_all(b",\n\"ends\":")?;
+    if is_spelled {
+        let ([x, y, z], decimals) = (grid.origin, grid.decimals);
+        write!(out, "{{\"origin\":[{x},{y},{z}],\"decimals\":{decimals}}}")?;
+    } else {
+        out.write_all(b"null")?;
+    }
+    out.write_all(b",\n\"causes\":")?;
+    let causes = notes.causes.iter();
+    columns(out, causes.map(|cause| [cause.line.into(), cause.stack.into()]))?;
+    out.write_all(b",\n\"source\":")?;
+    packed(out, source)?;
+    write!(out, ",\n\"sourceName\":{},\n\"stacks\":", json(&notes.source_name))?;
     let stacks: Vec<String> = notes.stacks.iter().map(|stack| json(stack)).collect();
-    let (text, ends) = match spelled(&notes.text, trace, grid) {
-        Some(text) => {
-            let [x, y, z] = grid.origin;
-            let decimals = grid.decimals;
-            let ends = format!("{{\"origin\":[{x},{y},{z}],\"decimals\":{decimals}}}");
-            (format!("\"{}\"", packed(&text)), ends)
-        }
-        None => (quoted(&notes.text), "null".to_string()),
-    };
+    packed(out, &format!("[{}]", stacks.join(",")))?;
     let left_out = trace.left_out.iter().take(LEFT_OUT);
     let left_out: Vec<String> =
         left_out.map(|left_out| json(&format!("line {}: {left_out}", left_out.line))).collect();
-    let fields = [
-        ("points", points),
-        ("pieces", pieces(trace)),
-        ("inForce", columns(trace.in_force.iter().map(in_force))),
-        ("axes", axes),
-        ("changes", changes),
-        ("text", text),
-        ("ends", ends),
-        ("causes", causes),
-        ("source", quoted(source)),
-        ("sourceName", json(&notes.source_name)),
-        ("stacks", quoted(&format!("[{}]", stacks.join(",")))),
-        ("leftOut", format!("[{}]", left_out.join(","))),
-    ];
-    let fields = fields.map(|(name, value)| format!("\"{name}\":{value}"));
-    format!("{{{}}}", fields.join(",\n"))
+    write!(out, ",\n\"leftOut\":[{}]}}", left_out.join(","))
 }
 
 /// A text, packed.
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", packed(text.as_bytes()))
+fn packed(out: &mut dyn Write, text: &str) -> io::Result<()> {
+    let mut packer = Packer::new(out)?;
+    packer.add(text.as_bytes())?;
+    packer.finish()
 }
 
 /// Pieces: number of points, whether it goes on from the one before, stroke; line.
-fn pieces(trace: &Trace) -> String {
-    let mut end = 0;
-    columns(trace.pieces.iter().map(|piece| {
+fn pieces(trace: &Trace, out: &mut dyn Write) -> io::Result<()> {
+    let ends = std::iter::once(0).chain(trace.pieces.iter().map(|piece| piece.end));
+    let rows = trace.pieces.iter().zip(ends).map(|(piece, end)| {
         let goes_on = piece.start + 1 == end;
-        end = piece.end;
         let stroke = Stroke::ALL.iter().position(|stroke| *stroke == piece.stroke).unwrap_or(0);
-        let count = piece.end - piece.start;
-        [(count << 3 | usize::from(goes_on) << 2 | stroke) as i64, piece.line.into()]
-    }))
+        let count = i64::from(piece.end - piece.start);
+        [count << 3 | i64::from(goes_on) << 2 | stroke as i64, piece.line.into()]
+    });
+    columns(out, rows)
 }
 
 /// What is in force: its first piece; tool; feed a minute (1), a turn (2) or none (0), and the

@@ -24,7 +24,8 @@ const MOST_LEFT_OUT: u32 = 10_000;
 /// Motions from or to a place that is not known are left out, and so are those to
 /// points of the machine. A line without a certain meaning is noted in
 /// [`Trace::left_out`], and the path goes on where the program has given all positions again.
-/// The program is run twice, so that no more than its trace is kept.
+/// A program with arcs, or one that names other axes than most, is run twice, so that no more than
+/// its trace is kept.
 ///
 /// # Errors
 /// The first line without a certain meaning, where nothing can be drawn or the text is a
@@ -41,31 +42,32 @@ pub fn nc_trace(
     };
     let source = Source::memory(&text).into_page(dialect.text.page);
     let mut survey = Survey::default();
+    // How fine arcs are drawn is known when all has been read.
+    let mut sketch = Some(Sketch::new(forward, usual_axes(dialect, forward), 0.0));
     let refused = run(&source, name, dialect, &mut |event| {
-        if let Some(Event::Move(motion)) = event {
-            survey.take(&motion, forward);
+        if let Some(Event::Move(motion)) = &event {
+            survey.take(motion, forward);
+            sketch = sketch.take().filter(|_| motion.arc.is_none());
+        }
+        if let Some(sketch) = &mut sketch {
+            sketch.take(event);
         }
     });
     if let Some(foreign) = refused.iter().find(|refused| !refused.notes.is_empty()) {
         return Err(Box::new(foreign.clone()));
     }
-    let tolerance = tolerance(survey.extent());
-    let mut builder = Builder::default();
-    builder.trace.inch = survey.inch.unwrap_or(!dialect.has(Habit::Metric));
-    let mut at = Position::default();
-    run(&source, name, dialect, &mut |event| match event {
-        Some(Event::Move(motion)) => {
-            add(&mut builder, &motion, &at, (forward, &survey, tolerance));
-            at = motion.to;
-        }
-        Some(Event::ToolChange { line, tool, .. }) => builder.change(line, tool),
-        Some(_) => {}
-        None => builder.pen = None,
+    let sketch = sketch.filter(|sketch| (sketch.named ^ survey.named) & survey.unknown == 0);
+    let sketch = sketch.unwrap_or_else(|| {
+        let mut sketch = Sketch::new(forward, survey.named, tolerance(survey.extent()));
+        run(&source, name, dialect, &mut |event| sketch.take(event));
+        sketch
     });
-    builder.trace.left_out = left_out(&refused);
+    let mut trace = sketch.builder.trace;
+    trace.inch = survey.inch.unwrap_or(!dialect.has(Habit::Metric));
+    trace.left_out = left_out(&refused);
     match refused.into_iter().next() {
-        Some(first) if builder.trace.pieces.is_empty() => Err(Box::new(first)),
-        _ => Ok(builder.trace),
+        Some(first) if trace.pieces.is_empty() => Err(Box::new(first)),
+        _ => Ok(trace),
     }
 }
 
@@ -119,26 +121,60 @@ fn left_out(refused: &[Diag]) -> Vec<LeftOut> {
     left_out
 }
 
-/// Adds a motion from where the axes stand.
-fn add(
-    builder: &mut Builder,
-    motion: &Move,
-    at: &Position,
-    (forward, survey, tolerance): (&Forward, &Survey, f64),
-) {
-    if motion.course == Course::Machine || !survey.knows(motion) {
-        builder.pen = None;
-    } else if builder.pen.is_none() {
-        builder.put(tip(forward, &motion.to));
-    } else {
-        let points = tips(forward, (at, &motion.to), motion.arc.as_ref(), tolerance);
-        if builder.draw(stroke(motion), motion.line, points) {
-            builder.note(motion, forward.axis(motion.to.rotary).into());
-            if forward.has_rotary() {
-                builder.note_rotary(motion.to.rotary);
+/// A program that is being drawn.
+struct Sketch<'f> {
+    forward: &'f Forward,
+    /// Axes that a block names, a bit each. One that none names does not move: it is known
+    /// well enough.
+    named: usize,
+    tolerance: f64,
+    builder: Builder,
+    /// Where the axes stand.
+    at: Position,
+}
+
+impl<'f> Sketch<'f> {
+    fn new(forward: &'f Forward, named: usize, tolerance: f64) -> Self {
+        let (builder, at) = (Builder::default(), Position::default());
+        Sketch { forward, named, tolerance, builder, at }
+    }
+
+    fn take(&mut self, event: Option<Event>) {
+        match event {
+            Some(Event::Move(motion)) => {
+                self.add(&motion);
+                self.at = motion.to;
+            }
+            Some(Event::ToolChange { line, tool, .. }) => self.builder.change(line, tool),
+            Some(_) => {}
+            None => self.builder.pen = None,
+        }
+    }
+
+    /// Adds a motion from where the axes stand.
+    fn add(&mut self, motion: &Move) {
+        let Sketch { forward, builder, at, .. } = self;
+        if motion.course == Course::Machine || unknown(motion) & self.named != 0 {
+            builder.pen = None;
+        } else if builder.pen.is_none() {
+            builder.put(tip(forward, &motion.to));
+        } else {
+            let points = tips(forward, (at, &motion.to), motion.arc.as_ref(), self.tolerance);
+            if builder.draw(stroke(motion), motion.line, points) {
+                builder.note(motion, forward.axis(motion.to.rotary).into());
+                if forward.has_rotary() {
+                    builder.note_rotary(motion.to.rotary);
+                }
             }
         }
     }
+}
+
+/// The axes that programs of a machine mostly name, a bit each.
+fn usual_axes(dialect: &Dialect, forward: &Forward) -> usize {
+    let [primary, secondary] = forward.rotaries().each_ref().map(|rotary| rotary.is_some());
+    let axes = [true, !dialect.is_lathe(), true, primary, secondary];
+    axes.iter().enumerate().map(|(bit, named)| usize::from(*named) << bit).sum()
 }
 
 fn stroke(motion: &Move) -> Stroke {
@@ -153,9 +189,10 @@ fn stroke(motion: &Move) -> Stroke {
 /// What must be known of a whole program before it is drawn.
 #[derive(Default)]
 struct Survey {
-    /// Axes that a block names, a bit each. One that none names does not move: it is known
-    /// well enough.
+    /// Axes that a block names, a bit each.
     named: usize,
+    /// Axes that are not known at the end of a motion.
+    unknown: usize,
     /// The ends of motions, by the axes that are not known there.
     extents: [Option<Extent>; 32],
     /// The first motion is in inch.
@@ -166,15 +203,12 @@ impl Survey {
     fn take(&mut self, motion: &Move, forward: &Forward) {
         let unknown = unknown(motion);
         self.named |= !unknown & 31;
+        self.unknown |= unknown;
         self.inch.get_or_insert(motion.modes.inch);
         let end = tip(forward, &motion.to);
         if is_place(&end) {
             self.extents[unknown] = Extent::joined(self.extents[unknown], Extent::of([&end]));
         }
-    }
-
-    fn knows(&self, motion: &Move) -> bool {
-        unknown(motion) & self.named == 0
     }
 
     /// The box around the ends that are known.

@@ -4,6 +4,8 @@
 //! A sign stands only where the script of the page makes the same number of the path again, from
 //! whole numbers; all other text stays as it is.
 
+use std::io;
+
 use super::Trace;
 use super::pack::Grid;
 
@@ -16,34 +18,52 @@ const MOST_DIGITS: usize = 9;
 /// Signs for a number without a zero before its point, and with one.
 const SIGNS: [u8; 2] = [1, 2];
 
-/// The text of a program with signs for the ends of its motions; `None` for one that has such signs
-/// of its own.
-pub(super) fn spelled(text: &str, trace: &Trace, grid: &Grid) -> Option<Vec<u8>> {
-    if text.bytes().any(|byte| SIGNS.contains(&byte)) {
-        return None;
+/// Hands the text of a program over with signs for the ends of its motions, in parts; as it is, and
+/// false, where it has such signs of its own.
+pub(super) fn spell(
+    text: &str,
+    trace: &Trace,
+    grid: &Grid,
+    out: &mut dyn FnMut(&[u8]) -> io::Result<()>,
+) -> io::Result<bool> {
+    let text = text.as_bytes();
+    let [sign, other] = SIGNS;
+    if memchr::memchr2(sign, other, text).is_some() {
+        out(text)?;
+        return Ok(false);
     }
-    let mut out = Vec::with_capacity(text.len());
     let ends = ends(trace);
-    for (index, line) in text.as_bytes().split_inclusive(|byte| *byte == b'\n').enumerate() {
-        let end = ends.get(index + 1).and_then(|end| trace.points.get(*end as usize));
-        let Some(end) = end.map(|point| grid.counts(point)) else {
-            out.extend_from_slice(line);
-            continue;
-        };
-        let mut rest = line;
-        while let Some((letter, behind)) = rest.split_first() {
-            out.push(*letter);
-            rest = behind;
-            let Some(axis) = AXES.iter().position(|axis| axis == letter) else { continue };
-            let length = rest.iter().take_while(|byte| is_of_number(**byte)).count();
-            let told = counted(&rest[..length], grid.decimals);
-            if let Some((_, sign)) = told.filter(|(count, _)| *count == end[axis]) {
-                out.push(sign);
-                rest = &rest[length..];
+    let mut begin = 0;
+    // What is handed over is a run of the text up to a number, then a sign.
+    let mut from = 0;
+    for line in 1.. {
+        if begin == text.len() {
+            break;
+        }
+        let rest = &text[begin..];
+        let end = begin + memchr::memchr(b'\n', rest).map_or(rest.len(), |at| at + 1);
+        let point = ends.get(line).and_then(|end| trace.points.get(*end as usize));
+        if let Some(point) = point.map(|point| grid.counts(point)) {
+            let mut at = begin;
+            while at < end {
+                let axis = AXES.iter().position(|axis| *axis == text[at]);
+                at += 1;
+                let Some(axis) = axis else { continue };
+                let number = &text[at..end];
+                let length = number.iter().take_while(|byte| is_of_number(**byte)).count();
+                let told = counted(&number[..length], grid.decimals);
+                if let Some((_, sign)) = told.filter(|(count, _)| *count == point[axis]) {
+                    out(&text[from..at])?;
+                    out(&[sign])?;
+                    at += length;
+                    from = at;
+                }
             }
         }
+        begin = end;
     }
-    Some(out)
+    out(&text[from..])?;
+    Ok(true)
 }
 
 fn is_of_number(byte: u8) -> bool {
@@ -56,7 +76,7 @@ fn ends(trace: &Trace) -> Vec<u32> {
     let lines = trace.pieces.iter().map(|piece| piece.line as usize + 1).max().unwrap_or(0);
     let mut ends = vec![u32::MAX; lines];
     for piece in &trace.pieces {
-        ends[piece.line as usize] = piece.end as u32 - 1;
+        ends[piece.line as usize] = piece.end - 1;
     }
     ends
 }
@@ -98,13 +118,18 @@ mod tests {
         let piece = |index: usize| Piece {
             stroke: Stroke::Feed,
             line: index as u32 + 1,
-            start: index.saturating_sub(1),
-            end: index + 1,
+            start: index.saturating_sub(1) as u32,
+            end: index as u32 + 1,
         };
         let pieces = (0..points.len()).map(piece).collect();
         let trace = Trace { points: points.to_vec(), pieces, ..Trace::default() };
         let grid = Grid::new(&Extent::of(points).expect("points"), Unit::Mm);
-        let spelled = spelled(text, &trace, &grid).unwrap_or_else(|| text.into());
+        let mut spelled = Vec::new();
+        let mut take = |part: &[u8]| {
+            spelled.extend_from_slice(part);
+            Ok(())
+        };
+        spell(text, &trace, &grid, &mut take).expect("a vector takes all");
         String::from_utf8(spelled).expect("a text")
     }
 

@@ -75,7 +75,7 @@ impl Frame {
 /// Draws views of a path, two in a row. What is smaller than a part of a pixel, or
 /// lies on what is drawn already, is left out, so that the size of the picture does
 /// not grow with the number of motions.
-pub fn svg(drawing: &Drawing, views: &[View]) -> String {
+pub fn svg(drawing: &Drawing<'_>, views: &[View]) -> String {
     let columns = views.len().clamp(1, 2);
     let rows = views.len().div_ceil(columns).max(1);
     let width = columns as f64 * (WIDTH + GAP) + GAP;
@@ -107,7 +107,7 @@ pub fn svg(drawing: &Drawing, views: &[View]) -> String {
 }
 
 /// The samples of strokes and the extent, in lines up to a right edge; and the number of lines.
-fn legend(drawing: &Drawing, extent: Option<&Extent>, edge: f64) -> (String, f64) {
+fn legend(drawing: &Drawing<'_>, extent: Option<&Extent>, edge: f64) -> (String, f64) {
     let (mut out, mut x, lines) = (String::new(), GAP, Cell::new(1.0));
     let mut room = |wide: f64| {
         if x > GAP && x + wide > edge {
@@ -146,7 +146,7 @@ fn legend(drawing: &Drawing, extent: Option<&Extent>, edge: f64) -> (String, f64
 }
 
 /// From where to where a drawing goes, in its unit: X of a turned part as a diameter.
-pub(super) fn sides(extent: &Extent, drawing: &Drawing) -> String {
+pub(super) fn sides(extent: &Extent, drawing: &Drawing<'_>) -> String {
     let unit = drawing.path.unit();
     let side = |axis: usize, sign: &str, times: f64| {
         let [from, to] = [extent.min, extent.max].map(|end| short(end[axis] * times, unit));
@@ -177,7 +177,7 @@ fn strokes(trace: &Trace) -> impl Iterator<Item = Stroke> {
 
 fn field(
     out: &mut String,
-    drawing: &Drawing,
+    drawing: &Drawing<'_>,
     extent: Option<&Extent>,
     view: View,
     corner: [f64; 2],
@@ -213,7 +213,7 @@ fn field(
 fn collect(trace: &Trace, frame: &Frame, wanted: impl Fn(Stroke) -> bool) -> Vec<Vec<Dot>> {
     let mut lines = Lines::default();
     for piece in trace.pieces.iter().filter(|piece| wanted(piece.stroke)) {
-        let points = &trace.points[piece.start..piece.end];
+        let points = &trace.points[piece.range()];
         lines.add(points.iter().map(|point| dot(frame.place(point))));
     }
     lines.finish();
@@ -262,7 +262,7 @@ fn tool_axes(out: &mut String, trace: &Trace, frame: &Frame) {
         while let Some((_, next)) = axes.next_if(|(from, _)| *from <= index) {
             axis = *next;
         }
-        let place = frame.place(&trace.points[piece.end - 1]);
+        let place = frame.place(&trace.points[piece.last()]);
         // A tool that does not turn has no direction.
         if axis == [0.0; 3] {
             continue;
@@ -278,7 +278,7 @@ fn tool_axes(out: &mut String, trace: &Trace, frame: &Frame) {
 }
 
 /// Tool changes: a ring and the numbers, once at each place; so many that they can be told apart.
-fn changes(out: &mut String, drawing: &Drawing, frame: &Frame, labels: &mut Labels) {
+fn changes(out: &mut String, drawing: &Drawing<'_>, frame: &Frame, labels: &mut Labels) {
     let mut places: Vec<(Dot, [f64; 2], Vec<u32>)> = Vec::new();
     for change in &drawing.path.changes {
         let at = frame.place(&change.at);

@@ -12,8 +12,8 @@ fn square(count: usize) -> Trace {
         .map(|index| Piece {
             stroke: Stroke::Feed,
             line: index as u32 + 1,
-            start: index,
-            end: index + 2,
+            start: index as u32,
+            end: index as u32 + 2,
         })
         .collect();
     Trace { points, pieces, ..Trace::default() }
@@ -92,7 +92,7 @@ fn boxes(picture: &str) -> Vec<(String, [f64; 4])> {
 }
 
 /// Many tools at many places close to one another.
-fn crowded(count: u32) -> Drawing {
+fn crowded(count: u32) -> Drawing<'static> {
     let mut path = square(100);
     path.changes = (0..count)
         .map(|tool| Change {

@@ -48,8 +48,8 @@ fn turns(trace: &Trace, piece: usize, now: &InForce) -> f64 {
     match now.speed {
         Some(Speed::Turns(turns)) => turns,
         Some(Speed::Surface(speed)) => {
-            let piece = &trace.pieces[piece];
-            let ends = [piece.start, piece.end - 1].map(|point| trace.points[point][0]);
+            let points = trace.pieces[piece].range();
+            let ends = [points.start, points.end - 1].map(|point| trace.points[point][0]);
             let radius = ((ends[0] + ends[1]) / 2.0).abs().max(LEAST_RADIUS);
             let turns = speed * 1000.0 / (2.0 * std::f64::consts::PI * radius);
             now.speed_limit.map_or(turns, |limit| turns.min(limit))

@@ -65,6 +65,7 @@ impl Builder {
         let end = points.len();
         if end > start + 1 {
             self.pen = points.last().copied();
+            let (start, end) = (start as u32, end as u32);
             self.trace.pieces.push(Piece { stroke, line, start, end });
             return true;
         }

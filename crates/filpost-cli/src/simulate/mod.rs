@@ -160,7 +160,7 @@ pub fn name_sources(
 }
 
 /// What made the lines of a program, from its line map: the given one, or the one beside it.
-fn origins(nc: Text<'_>, path: &Path, map: Option<&Path>) -> Result<Notes, Error> {
+fn origins(nc: Text<'_>, path: &Path, map: Option<&Path>) -> Result<Notes<'static>, Error> {
     let mut notes = Notes::default();
     let beside = post::beside(path);
     let is_beside = map.is_none() && beside.is_file();

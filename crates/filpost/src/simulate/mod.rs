@@ -119,7 +119,7 @@ pub fn program(nc: Text<'_>, commons: &Commons, job: &Job<'_>) -> Result<Simulat
 
 /// What made a line of a program, from the notes of its line map; `None` where they tell nothing.
 #[doc(hidden)]
-pub fn source(notes: &Notes, line: u32) -> Option<Source> {
+pub fn source(notes: &Notes<'_>, line: u32) -> Option<Source> {
     let cause = notes.causes.get((line as usize).checked_sub(1)?)?;
     let text = notes.origin(line as usize);
     (!text.is_empty()).then_some(Source { cl_line: cause.line, text })
