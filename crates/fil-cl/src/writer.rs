@@ -19,6 +19,11 @@ const WIDTH: usize = 71;
 /// line should hold, and none comes from a machine.
 const PLAIN: std::ops::Range<f64> = 1e-15..1e16;
 
+/// Numbers of CAM systems have at most ten digits behind the point. No two numbers of fifteen
+/// digits are the same double, so the one that a double reads back as is its shortest form.
+const SCALE: u64 = 10_000_000_000;
+const MOST: f64 = 1e15;
+
 /// Writes records so that the reader makes the same records of them again.
 pub struct Writer<W> {
     output: W,
@@ -38,19 +43,37 @@ impl<W: Write> Writer<W> {
     /// The record has no text form (a number that is not finite, a text that would
     /// read as something else, an empty slot at the end), or the output fails.
     pub fn write(&mut self, record: &Record, vocab: &Vocabulary) -> Result<(), Box<Diag>> {
+        self.statement(record, vocab, WIDTH)?;
+        self.end_line()
+    }
+
+    /// The statement of a record on one line, which is not written.
+    ///
+    /// # Errors
+    /// The record has no text form.
+    pub fn one_line(&mut self, record: &Record, vocab: &Vocabulary) -> Result<&str, Box<Diag>> {
+        self.statement(record, vocab, usize::MAX)?;
+        Ok(&self.line)
+    }
+
+    fn statement(
+        &mut self,
+        record: &Record,
+        vocab: &Vocabulary,
+        width: usize,
+    ) -> Result<(), Box<Diag>> {
         self.line.clear();
         if record.kind == kind::PSEUDO {
             self.line.push_str("$$-> ");
         }
         self.line.push_str(vocab.name(record.major));
         if record.kind == kind::POST && takes_text(record.major) {
-            self.free_text(record, " / ")?;
+            self.free_text(record, " / ")
         } else if is_alias(record, vocab) {
-            self.free_text(record, " : ")?;
+            self.free_text(record, " : ")
         } else {
-            self.items(record, vocab)?;
+            self.items(record, vocab, width)
         }
-        self.end_line()
     }
 
     /// Writes a text statement as a comment, which no reader takes for a statement.
@@ -90,7 +113,7 @@ impl<W: Write> Writer<W> {
         Ok(())
     }
 
-    fn items(&mut self, record: &Record, vocab: &Vocabulary) -> Result<(), Box<Diag>> {
+    fn items(&mut self, record: &Record, vocab: &Vocabulary, most: usize) -> Result<(), Box<Diag>> {
         let data = written_items(record);
         if data.is_empty() {
             self.line.push_str(if is_bare(record) { " " } else { " / " });
@@ -109,7 +132,7 @@ impl<W: Write> Writer<W> {
             }
             let width = self.line.len() - start + 1 + self.item.len();
             // A line of its own cannot say an empty item.
-            if index > 0 && !self.item.is_empty() && width + ",  $".len() > WIDTH {
+            if index > 0 && !self.item.is_empty() && width + ",  $".len() > most {
                 self.line.push_str("  $\n");
                 start = self.line.len();
             } else {
@@ -122,6 +145,11 @@ impl<W: Write> Writer<W> {
 
     /// The shortest digits that read back exactly, with a point: Creo writes no exponent.
     fn number(&mut self, value: f64) {
+        let size = value.abs();
+        let scaled = (size * SCALE as f64).round();
+        if scaled < MOST && scaled / SCALE as f64 == size {
+            return self.decimal(scaled as u64, value.is_sign_negative());
+        }
         if value != 0.0 && !PLAIN.contains(&value.abs()) {
             return write!(self.item, "{value:?}").unwrap_or_default();
         }
@@ -129,6 +157,17 @@ impl<W: Write> Writer<W> {
         if value.fract() == 0.0 {
             self.item.push_str(".0");
         }
+    }
+
+    /// A number counted in the last digit of [`SCALE`].
+    fn decimal(&mut self, scaled: u64, negative: bool) {
+        let mut digits = itoa::Buffer::new();
+        self.item.push_str(if negative { "-" } else { "" });
+        self.item.push_str(digits.format(scaled / SCALE));
+        self.item.push('.');
+        // A digit before them keeps their zeros.
+        let fraction = digits.format(scaled % SCALE + SCALE)[1..].trim_end_matches('0');
+        self.item.push_str(if fraction.is_empty() { "0" } else { fraction });
     }
 
     fn format(&mut self, record: &Record, word: Word, vocab: &Vocabulary) -> Result<(), Box<Diag>> {

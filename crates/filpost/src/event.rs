@@ -79,13 +79,20 @@ pub struct RunEnd<'a> {
 
 /// Edits lines of a listing as the script wants them.
 #[derive(Clone, Copy)]
-pub struct LineEditor<'a>(pub(crate) &'a dyn Fn(&mut String));
+pub struct LineEditor<'a>(pub(crate) Option<&'a dyn Fn(&mut String)>);
 
 impl LineEditor<'_> {
     /// Edits a line; an empty one is to be left out. An error of the script stops the run
     /// behind the event.
     pub fn edit(&self, line: &mut String) {
-        (self.0)(line);
+        if let Some(edit) = self.0 {
+            edit(line);
+        }
+    }
+
+    /// True where the script edits lines.
+    pub(crate) fn is_in_use(&self) -> bool {
+        self.0.is_some()
     }
 }
 

@@ -98,7 +98,9 @@ impl Outside<'_, '_> {
         let tape = &self.post.control.tape;
         let Some(noted) = &tape.noted else { return };
         for block in &noted.blocks[self.shown..] {
-            let text = String::from_utf8_lossy(&tape.text[block.range.clone()]);
+            let text = &tape.text[block.range.clone()];
+            let text = std::str::from_utf8(text)
+                .map_or_else(|_| String::from_utf8_lossy(text), Cow::Borrowed);
             let origin = tape.stacks.origin(block.cause);
             take(Shown { text: &text, origin: &origin, words: &|| words_of(tape, noted, block) });
             if let Some(kept) = &mut self.kept {

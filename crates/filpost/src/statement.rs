@@ -1,15 +1,29 @@
 //! A CL record as the text of its statement, for messages and the listing.
 
+use std::io;
+
 use fil_cl::{Record, Vocabulary, writer::Writer};
 
 /// The statement in Creo's layout, on one line.
 pub fn statement_text(record: &Record, vocabulary: &Vocabulary) -> String {
-    let mut writer = Writer::new(Vec::new());
-    if writer.write(record, vocabulary).is_err() {
-        return vocabulary.name(record.major).to_string();
+    Statements::default().text(record, vocabulary).to_string()
+}
+
+/// Makes the texts of many statements.
+pub(crate) struct Statements(Writer<io::Sink>);
+
+impl Default for Statements {
+    fn default() -> Self {
+        Statements(Writer::new(io::sink()))
     }
-    let text = String::from_utf8_lossy(&writer.into_inner()).into_owned();
-    let lines: Vec<&str> =
-        text.lines().map(|line| line.trim().trim_end_matches('$').trim_end()).collect();
-    lines.join(" ")
+}
+
+impl Statements {
+    /// The statement in Creo's layout, on one line.
+    pub fn text<'t>(&'t mut self, record: &Record, vocabulary: &'t Vocabulary) -> &'t str {
+        match self.0.one_line(record, vocabulary) {
+            Ok(line) => line.trim().trim_end_matches('$').trim_end(),
+            Err(_) => vocabulary.name(record.major),
+        }
+    }
 }

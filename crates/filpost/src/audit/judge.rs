@@ -21,7 +21,7 @@ use crate::program::Program;
 const DUST: f64 = 1e-6;
 
 /// Decimals of a position.
-const DECIMALS: usize = 4;
+const DECIMALS: u8 = 4;
 
 /// Rules that no program may break, whoever made its blocks: the program beside itself.
 pub(super) fn rules(program: &Program, nc: (&Source<'_>, &str)) -> Result<Report, String> {

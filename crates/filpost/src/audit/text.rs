@@ -7,7 +7,7 @@ use fil_nc::decimals;
 use super::{Author, Change, What};
 
 /// Decimals of a difference.
-const DECIMALS: usize = 4;
+const DECIMALS: u8 = 4;
 
 impl fmt::Display for Author {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -6,11 +6,12 @@ mod rules;
 mod texts;
 
 use std::io::{self, Write};
+use std::mem;
 
 use fil_cl::{Record, words};
 
 use crate::event::{Event, LineEditor};
-use crate::statement::statement_text;
+use crate::statement::Statements;
 use crate::tally::Motion;
 
 pub use rules::ListingRules;
@@ -30,8 +31,12 @@ pub use rules::ListingRules;
 /// ```
 pub struct Listing<W> {
     writer: W,
-    /// Lines of the record that is being carried out.
-    pending: Vec<(Row, String)>,
+    statements: Statements,
+    /// Lines of the record that is being carried out, and where each ends in their text.
+    pending: Vec<(Row, usize)>,
+    text: Vec<u8>,
+    /// The line that is being written.
+    line: Vec<u8>,
     /// Lines on the page.
     lines: usize,
     pages: usize,
@@ -42,7 +47,9 @@ pub struct Listing<W> {
 impl<W: Write + Send> Listing<W> {
     /// A listing to a writer.
     pub fn new(writer: W) -> Self {
-        Listing { writer, pending: Vec::new(), lines: 0, pages: 0, failure: None }
+        let statements = Statements::default();
+        let (pending, text, line) = (Vec::new(), Vec::new(), Vec::new());
+        Listing { writer, statements, pending, text, line, lines: 0, pages: 0, failure: None }
     }
 
     /// The observer that writes it.
@@ -71,60 +78,92 @@ impl<W: Write + Send> Listing<W> {
     fn take(&mut self, event: &Event<'_>) -> io::Result<()> {
         match event {
             Event::Record { record, vocabulary, .. } => {
-                let statement = statement_text(record, vocabulary);
-                let line = format!("{:>7} {:>7}  {statement}", record.line, record.number);
-                self.pending.push((Row::of(record), line));
+                for number in [record.line, record.number] {
+                    texts::right(&mut self.text, number);
+                }
+                let statement = self.statements.text(record, vocabulary);
+                self.text.push(b' ');
+                self.text.extend_from_slice(statement.as_bytes());
+                self.end_line(Row::of(record));
             }
             Event::Section { key, swallowed, traced, .. } if *traced || *swallowed => {
                 let end = if *swallowed { ": record swallowed" } else { "" };
-                let line = format!("{:>17}FIL section {key}{end}", "");
-                self.pending.push((Row::Section, line));
+                write!(self.text, "{:NOTE$}FIL section {key}{end}", "")?;
+                self.end_line(Row::Section);
             }
             Event::Block { text, origin, .. } => {
-                let fil: Vec<String> =
-                    origin.fil.iter().map(|at| format!(" <{}:{}>", at.file, at.line)).collect();
-                self.pending.push((
-                    Row::Block { length: text.len() },
-                    format!("{:>BLOCK$}{text}{}", "", fil.concat()),
-                ));
+                self.text.extend_from_slice(&[b' '; BLOCK]);
+                self.text.extend_from_slice(text.as_bytes());
+                for at in &origin.fil {
+                    write!(self.text, " <{}:{}>", at.file, at.line)?;
+                }
+                self.end_line(Row::Block { length: text.len() });
             }
-            Event::Motion(motion) => self.pending.push((Row::Position(*motion), String::new())),
+            Event::Motion(motion) => self.end_line(Row::Position(*motion)),
             Event::Message(text) => {
-                self.pending.push((Row::Message, format!("{:>17}{text}", "")));
+                write!(self.text, "{:NOTE$}{text}", "")?;
+                self.end_line(Row::Message);
             }
             Event::Warning(diag) => {
-                self.pending.push((Row::Warning, format!("{:>17}{diag}", "")));
+                write!(self.text, "{:NOTE$}{diag}", "")?;
+                self.end_line(Row::Warning);
             }
             Event::RecordDone { lines, rules, .. } => self.write(Some(lines), *rules)?,
-            Event::End(end) => self.pending.extend(texts::totals(end)),
+            Event::End(end) => {
+                for (row, line) in texts::totals(end) {
+                    self.text.extend_from_slice(line.as_bytes());
+                    self.end_line(row);
+                }
+            }
             Event::Section { .. } => {}
         }
         Ok(())
     }
 
+    /// What was written last is a line.
+    fn end_line(&mut self, row: Row) {
+        self.pending.push((row, self.text.len()));
+    }
+
     fn write(&mut self, editor: Option<&LineEditor<'_>>, rules: ListingRules) -> io::Result<()> {
-        for (row, mut line) in std::mem::take(&mut self.pending) {
+        let (mut pending, text) = (mem::take(&mut self.pending), mem::take(&mut self.text));
+        let mut start = 0;
+        for (row, end) in pending.drain(..) {
+            let text = &text[mem::replace(&mut start, end)..end];
             if !rules.shows(row) {
                 continue;
             }
-            if let Row::Position(motion) = &row {
-                line = texts::position(motion, rules.feeds);
-            }
-            if let Row::Block { length } = row
-                && rules.bare_blocks
-            {
-                line = line[BLOCK..BLOCK + length].to_string();
+            self.line.clear();
+            match row {
+                Row::Position(motion) => texts::position(&mut self.line, &motion, rules.feeds),
+                Row::Block { length } if rules.bare_blocks => {
+                    self.line.extend_from_slice(&text[BLOCK..BLOCK + length]);
+                }
+                _ => self.line.extend_from_slice(text),
             }
             if let Some(editor) = editor {
-                editor.edit(&mut line);
-                if line.is_empty() {
+                self.edit(editor);
+                if self.line.is_empty() {
                     continue;
                 }
             }
             self.begin_page(rules)?;
-            writeln!(self.writer, "{line}")?;
+            self.line.push(b'\n');
+            self.writer.write_all(&self.line)?;
         }
+        // The next record uses their memory again.
+        (self.pending, self.text) = (pending, text);
+        self.text.clear();
         Ok(())
+    }
+
+    /// Gives the line to the macro of the script, where it has one.
+    fn edit(&mut self, editor: &LineEditor<'_>) {
+        if editor.is_in_use() {
+            let mut line = String::from_utf8_lossy(&self.line).into_owned();
+            editor.edit(&mut line);
+            self.line = line.into_bytes();
+        }
     }
 
     /// Writes the heading of a page where one begins.
@@ -140,8 +179,9 @@ impl<W: Write + Send> Listing<W> {
     }
 }
 
-/// Blanks before a block.
+/// Blanks before a block, and before a note on a record.
 const BLOCK: usize = 20;
+const NOTE: usize = 17;
 
 /// What a line of a listing is.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,36 +8,67 @@ use crate::event::RunEnd;
 use crate::report::Extents;
 use crate::tally::{Motion, Totals};
 
+/// Letters of a number in its column.
+const COLUMN: usize = 7;
+
+/// Decimals of lengths and feeds.
+const LENGTH: u8 = 3;
+
 /// Characters of a paper tape on an inch of it.
 const CHARACTERS_AN_INCH: f64 = 10.0;
 const METERS_IN_AN_INCH: f64 = 0.0254;
 
-/// Where a motion ends, its feed and its time; of a hole the way to it, which is rapid, and
+/// A number at the right of its column, and a blank.
+pub(super) fn right(out: &mut Vec<u8>, number: u32) {
+    let mut digits = itoa::Buffer::new();
+    let digits = digits.format(number);
+    out.resize(out.len() + COLUMN.saturating_sub(digits.len()), b' ');
+    out.extend_from_slice(digits.as_bytes());
+    out.push(b' ');
+}
+
+/// Tells where a motion ends, its feed and its time; of a hole the way to it, which is rapid, and
 /// the way down at feed.
-pub(super) fn position(motion: &Motion, feeds: FeedListUnits) -> String {
-    let [x, y, z] = motion.point.map(length);
-    let feed = match (motion.rapid, motion.feed) {
-        (true, _) => "rapid".to_string(),
-        (false, Some(feed)) => feed_text(feed, motion, feeds),
-        (false, None) => "no feed".to_string(),
-    };
-    let time = motion.seconds.map_or_else(|| "time unknown".to_string(), seconds);
-    let way = length(motion.length);
-    let down = motion.hole.map(|hole| format!("  down {}", length(hole.down))).unwrap_or_default();
-    format!("{:>22}X {x}  Y {y}  Z {z}  {feed}  way {way}{down}  {time}", "at ")
+pub(super) fn position(out: &mut Vec<u8>, motion: &Motion, feeds: FeedListUnits) {
+    for (name, value) in ["                   at X ", "  Y ", "  Z "].into_iter().zip(motion.point)
+    {
+        tell(out, name, value, LENGTH);
+    }
+    match (motion.rapid, motion.feed) {
+        (true, _) => out.extend_from_slice(b"  rapid"),
+        (false, Some(feed)) => {
+            let (feed, is_of_turn) = listed_feed(feed, motion, feeds);
+            tell(out, "  feed ", feed, if is_of_turn { LENGTH + 1 } else { LENGTH });
+            out.extend_from_slice(if is_of_turn { b" a revolution" } else { b"" });
+        }
+        (false, None) => out.extend_from_slice(b"  no feed"),
+    }
+    tell(out, "  way ", motion.length, LENGTH);
+    if let Some(hole) = motion.hole {
+        tell(out, "  down ", hole.down, LENGTH);
+    }
+    match motion.seconds {
+        Some(seconds) => {
+            tell(out, "  ", seconds, 2);
+            out.extend_from_slice(b" s");
+        }
+        None => out.extend_from_slice(b"  time unknown"),
+    }
+}
+
+fn tell(out: &mut Vec<u8>, before: &str, value: f64, decimals: u8) {
+    out.extend_from_slice(before.as_bytes());
+    decimals::push_short(out, value, decimals);
 }
 
 /// A feed as it was asked for, or as the machine lists feeds where the turns of the spindle
-/// are known.
-fn feed_text(feed: f64, motion: &Motion, feeds: FeedListUnits) -> String {
+/// are known; true for one a revolution.
+fn listed_feed(feed: f64, motion: &Motion, feeds: FeedListUnits) -> (f64, bool) {
     let turns = motion.turns.filter(|turns| *turns > 0.0);
     match (motion.per_revolution, feeds, turns) {
-        (true, FeedListUnits::PerMinute, Some(turns)) => format!("feed {}", length(feed * turns)),
-        (false, FeedListUnits::PerRevolution, Some(turns)) => {
-            format!("feed {} a revolution", decimals::short(feed / turns, 4))
-        }
-        (true, ..) => format!("feed {} a revolution", decimals::short(feed, 4)),
-        (false, ..) => format!("feed {}", length(feed)),
+        (true, FeedListUnits::PerMinute, Some(turns)) => (feed * turns, false),
+        (false, FeedListUnits::PerRevolution, Some(turns)) => (feed / turns, true),
+        (is_of_turn, ..) => (feed, is_of_turn),
     }
 }
 
@@ -107,11 +138,7 @@ fn span(extents: &Extents) -> String {
 }
 
 fn length(value: f64) -> String {
-    decimals::short(value, 3)
-}
-
-fn seconds(value: f64) -> String {
-    format!("{} s", decimals::short(value, 2))
+    decimals::short(value, LENGTH)
 }
 
 /// Hours, minutes and seconds.

@@ -116,17 +116,19 @@ impl Outside<'_, '_> {
         let failure = RefCell::new(None);
         let commons = &self.post.control.commons;
         let editor = self.editor.as_ref().filter(|_| edits(commons).listing);
-        let edit = |line: &mut String| {
-            if let Some(editor) = editor
-                && failure.borrow().is_none()
-                && let Err(diag) = editor.edit_line(OutputMacro::Listing, line, commons)
-            {
-                *failure.borrow_mut() = Some(diag);
+        let edit = editor.map(|editor| {
+            |line: &mut String| {
+                if failure.borrow().is_none()
+                    && let Err(diag) = editor.edit_line(OutputMacro::Listing, line, commons)
+                {
+                    *failure.borrow_mut() = Some(diag);
+                }
             }
-        };
+        });
+        let edit = edit.as_ref().map(|edit| edit as &dyn Fn(&mut String));
         let rules = ListingRules::of(commons);
         for observer in self.observers.iter_mut() {
-            observer(Event::RecordDone { lines: LineEditor(&edit), rules });
+            observer(Event::RecordDone { lines: LineEditor(edit), rules });
         }
         failure.into_inner().map_or(Ok(()), Err)
     }
