@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
+use std::mem;
 use std::sync::{Arc, LazyLock};
 
 use fil_diag::letter_case;
@@ -38,8 +39,8 @@ const OWN_CODES: u64 = 1_000_000;
 /// The published codes; its header names the columns.
 const PUBLISHED: &str = include_str!("../data/vocabulary.tsv");
 
-/// Slots of the name table at the start: room for the published words.
-const FIRST_SLOTS: usize = 4096;
+/// Fewest slots of a table of names.
+const FEWEST_SLOTS: usize = 16;
 
 /// A slot that holds no word.
 const FREE: u32 = u32::MAX;
@@ -58,16 +59,61 @@ struct Entry {
     code: f64,
 }
 
+/// Words that are found by their names.
+#[derive(Clone, Debug, Default)]
+struct Words {
+    entries: Vec<Entry>,
+    /// Open addressing over the hash of the name; never more than half full.
+    slots: Vec<u32>,
+    /// Codes of our own, to find a free one and to get back to the word.
+    own_codes: HashMap<u64, WordId>,
+}
+
+impl Words {
+    fn lookup(&self, name: &[u8], hash: u32) -> Option<usize> {
+        let mask = self.slots.len().checked_sub(1)?;
+        let mut slot = hash as usize & mask;
+        loop {
+            let index = self.slots[slot] as usize;
+            let entry = self.entries.get(index)?;
+            let known = entry.name.as_bytes();
+            if entry.hash == hash && (known == name || known.eq_ignore_ascii_case(name)) {
+                return Some(index);
+            }
+            slot = (slot + 1) & mask;
+        }
+    }
+
+    fn insert(&mut self, entry: Entry) {
+        self.entries.push(entry);
+        let last = self.entries.len() - 1;
+        if self.entries.len() * 2 > self.slots.len() {
+            self.slots = vec![FREE; (self.slots.len() * 2).max(FEWEST_SLOTS)];
+            (0..=last).for_each(|index| self.occupy(index));
+        } else {
+            self.occupy(last);
+        }
+    }
+
+    fn occupy(&mut self, index: usize) {
+        let mask = self.slots.len() - 1;
+        let mut slot = self.entries[index].hash as usize & mask;
+        while self.slots[slot] != FREE {
+            slot = (slot + 1) & mask;
+        }
+        self.slots[slot] = index as u32;
+    }
+}
+
 /// The words known to a run: those of the published tables and those the CL
 /// file or the FIL script brought along.
 #[derive(Clone, Debug)]
 pub struct Vocabulary {
-    // Each run starts with a copy, and few CL files bring words along.
-    entries: Arc<Vec<Entry>>,
-    /// Open addressing over the hash of the name; never more than half full.
-    slots: Arc<Vec<u32>>,
-    /// Codes of our own, to find a free one and to get back to the word.
-    own_codes: Arc<HashMap<u64, WordId>>,
+    // Each run starts with a copy, and a CL file brings few words along.
+    /// Those of the tables.
+    tables: Arc<Words>,
+    /// Those that came after them.
+    added: Arc<Words>,
     /// The word of each published code, as [`Vocabulary::minor_with_code`] gives it.
     public_codes: Arc<HashMap<u64, WordId>>,
 }
@@ -88,26 +134,26 @@ impl Vocabulary {
 
     fn of_tables() -> Self {
         let mut vocabulary = Vocabulary {
-            entries: Arc::new(Vec::with_capacity(FIRST_SLOTS / 2)),
-            slots: Arc::new(vec![FREE; FIRST_SLOTS]),
-            own_codes: Arc::default(),
+            tables: Arc::default(),
+            added: Arc::default(),
             public_codes: Arc::default(),
         };
         for (name, class) in words::NAMES_AND_CLASSES {
             let id = vocabulary.insert(Cow::Borrowed(name), hash(name.as_bytes()), *class);
-            vocabulary.entry_mut(id.index()).of_posts = true;
+            vocabulary.entry_mut(id).of_posts = true;
         }
         for line in PUBLISHED.lines().filter(|line| !line.starts_with('#')) {
             vocabulary.publish(line);
         }
-        for index in 0..words::NAMES_AND_CLASSES.len() {
-            if !vocabulary.entries[index].public {
-                vocabulary.give_own_code(WordId(index as u32));
+        for id in (0..words::NAMES_AND_CLASSES.len() as u32).map(WordId) {
+            if !vocabulary.entry(id).public {
+                vocabulary.give_own_code(id);
             }
         }
+        vocabulary.tables = mem::take(&mut vocabulary.added);
         // The first word stays, and a minor one.
         for class in [MAJOR, MINOR] {
-            let entries = vocabulary.entries.iter().enumerate().rev();
+            let entries = vocabulary.tables.entries.iter().enumerate().rev();
             let codes = Arc::make_mut(&mut vocabulary.public_codes);
             for (index, entry) in entries.filter(|(_, e)| e.public && e.class & class != 0) {
                 codes.insert(entry.code as u64, WordId(index as u32));
@@ -150,12 +196,12 @@ impl Vocabulary {
     /// # Panics
     /// When the id comes from another vocabulary that holds more words.
     pub fn name(&self, id: WordId) -> &str {
-        &self.entries[id.index()].name
+        &self.entry(id).name
     }
 
     /// The words this crate or a published table knows.
     fn known_names(&self) -> impl Iterator<Item = &str> {
-        self.entries.iter().filter(|entry| entry.class != 0).map(|entry| entry.name.as_ref())
+        self.entries().filter(|entry| entry.class != 0).map(|entry| entry.name.as_ref())
     }
 
     /// A hint with the known word that an unknown one was perhaps meant to be.
@@ -166,7 +212,7 @@ impl Vocabulary {
     /// The known word that opens statements and that an unknown one differs least from;
     /// `None` where it is near to none.
     pub fn nearest_major(&self, id: WordId) -> Option<&str> {
-        let majors = self.entries.iter().filter(|entry| entry.class & MAJOR != 0);
+        let majors = self.entries().filter(|entry| entry.class & MAJOR != 0);
         let names = majors.map(|entry| entry.name.as_ref());
         if self.is_known(id) { None } else { nearest(self.name(id), names) }
     }
@@ -174,29 +220,29 @@ impl Vocabulary {
     /// The integer code, without a unit. Of the published ones the first of: gpost, PostWorks,
     /// APT-AC, APT360, NCL.
     pub fn code(&self, id: WordId) -> f64 {
-        self.entries[id.index()].code
+        self.entry(id).code
     }
 
     /// False when the code is our own and means nothing outside filpost.
     pub fn is_public(&self, id: WordId) -> bool {
-        self.entries[id.index()].public
+        self.entry(id).public
     }
 
     /// True for a word known to open statements (it may be a minor word as well).
     pub fn is_major(&self, id: WordId) -> bool {
-        self.entries[id.index()].class & MAJOR != 0
+        self.entry(id).class & MAJOR != 0
     }
 
     /// True for a word this crate or a published table knows, whatever its code.
     pub fn is_known(&self, id: WordId) -> bool {
-        self.entries[id.index()].class != 0
+        self.entry(id).class != 0
     }
 
     /// True for a word that statements for posts use. The tables also have words of the
     /// language of APT processors, which mean nothing in a CL file.
     #[doc(hidden)]
     pub fn is_of_posts(&self, id: WordId) -> bool {
-        self.entries[id.index()].of_posts
+        self.entry(id).of_posts
     }
 
     /// The word a code stands for where a minor word is due. Of several words
@@ -207,14 +253,19 @@ impl Vocabulary {
         if code < 0.0 || code.fract() != 0.0 {
             return None;
         }
-        let codes = if code >= OWN_CODES as f64 { &self.own_codes } else { &self.public_codes };
-        codes.get(&(code as u64)).copied()
+        let (code, is_own) = (code as u64, code >= OWN_CODES as f64);
+        if is_own { self.with_own_code(code) } else { self.public_codes.get(&code).copied() }
+    }
+
+    fn with_own_code(&self, code: u64) -> Option<WordId> {
+        let of_tables = self.tables.own_codes.get(&code);
+        of_tables.or_else(|| self.added.own_codes.get(&code)).copied()
     }
 
     /// Notes which word a published code stands for, once the words have changed.
     fn find_public(&mut self, code: f64) {
         let with_class = |class: u8| {
-            self.entries.iter().position(|e| e.public && e.code == code && e.class & class != 0)
+            self.entries().position(|e| e.public && e.code == code && e.class & class != 0)
         };
         let found = with_class(MINOR).or_else(|| with_class(MAJOR));
         let codes = Arc::make_mut(&mut self.public_codes);
@@ -229,31 +280,47 @@ impl Vocabulary {
     pub(crate) fn set_code(&mut self, id: WordId, code: u32) {
         let code = f64::from(code);
         let has_it = |entry: &Entry| entry.public && !entry.of_file && entry.code == code;
-        let others: Vec<usize> =
-            (0..self.entries.len()).filter(|at| has_it(&self.entries[*at])).collect();
+        let ids = (0..self.len() as u32).map(WordId);
+        let others: Vec<WordId> = ids.filter(|other| has_it(self.entry(*other))).collect();
         for other in others {
             self.entry_mut(other).public = false;
-            self.give_own_code(WordId(other as u32));
+            self.give_own_code(other);
         }
-        let entry = self.entry_mut(id.index());
+        let entry = self.entry_mut(id);
         let before = entry.code;
         (entry.code, entry.public, entry.of_file) = (code, true, true);
         self.find_public(before);
         self.find_public(code);
     }
 
-    fn entry_mut(&mut self, index: usize) -> &mut Entry {
-        &mut Arc::make_mut(&mut self.entries)[index]
+    fn entries(&self) -> impl Iterator<Item = &Entry> {
+        self.tables.entries.iter().chain(&self.added.entries)
+    }
+
+    #[inline]
+    fn entry(&self, id: WordId) -> &Entry {
+        let index = id.index();
+        let of_added = |index| &self.added.entries[index];
+        index
+            .checked_sub(self.tables.entries.len())
+            .map_or_else(|| &self.tables.entries[index], of_added)
+    }
+
+    fn entry_mut(&mut self, id: WordId) -> &mut Entry {
+        match id.index().checked_sub(self.tables.entries.len()) {
+            None => &mut Arc::make_mut(&mut self.tables).entries[id.index()],
+            Some(index) => &mut Arc::make_mut(&mut self.added).entries[index],
+        }
     }
 
     /// Number of words.
     pub fn len(&self) -> usize {
-        self.entries.len()
+        self.tables.entries.len() + self.added.entries.len()
     }
 
     /// Never true: the published words are always there.
     pub fn is_empty(&self) -> bool {
-        self.entries.is_empty()
+        self.len() == 0
     }
 
     /// Interns a name in which only ASCII letters may be lower case.
@@ -269,57 +336,26 @@ impl Vocabulary {
     }
 
     fn lookup(&self, name: &[u8], hash: u32) -> Option<WordId> {
-        let mask = self.slots.len() - 1;
-        let mut slot = hash as usize & mask;
-        loop {
-            let id = self.slots[slot];
-            let entry = self.entries.get(id as usize)?;
-            let known = entry.name.as_bytes();
-            if entry.hash == hash && (known == name || known.eq_ignore_ascii_case(name)) {
-                return Some(WordId(id));
-            }
-            slot = (slot + 1) & mask;
-        }
+        let of_added = || Some(self.tables.entries.len() + self.added.lookup(name, hash)?);
+        Some(WordId(self.tables.lookup(name, hash).or_else(of_added)? as u32))
     }
 
     fn insert(&mut self, name: Cow<'static, str>, hash: u32, class: u8) -> WordId {
-        let id = WordId(self.entries.len() as u32);
         let of_posts = false;
         let entry = Entry { name, hash, class, public: false, of_posts, of_file: false, code: 0.0 };
-        Arc::make_mut(&mut self.entries).push(entry);
-        if self.entries.len() * 2 > self.slots.len() {
-            self.grow();
-        } else {
-            self.occupy(id);
-        }
-        id
-    }
-
-    fn occupy(&mut self, id: WordId) {
-        let mask = self.slots.len() - 1;
-        let mut slot = self.entries[id.index()].hash as usize & mask;
-        while self.slots[slot] != FREE {
-            slot = (slot + 1) & mask;
-        }
-        Arc::make_mut(&mut self.slots)[slot] = id.0;
-    }
-
-    fn grow(&mut self) {
-        self.slots = Arc::new(vec![FREE; self.slots.len() * 2]);
-        for index in 0..self.entries.len() {
-            self.occupy(WordId(index as u32));
-        }
+        Arc::make_mut(&mut self.added).insert(entry);
+        WordId(self.len() as u32 - 1)
     }
 
     /// A code that depends on the name alone, so that it is the same in every
     /// run; two names with one hash value share no code, the later one moves on.
     fn give_own_code(&mut self, id: WordId) {
-        let mut code = OWN_CODES + u64::from(self.entries[id.index()].hash);
-        while self.own_codes.contains_key(&code) {
+        let mut code = OWN_CODES + u64::from(self.entry(id).hash);
+        while self.with_own_code(code).is_some() {
             code += 1;
         }
-        Arc::make_mut(&mut self.own_codes).insert(code, id);
-        self.entry_mut(id.index()).code = code as f64;
+        Arc::make_mut(&mut self.added).own_codes.insert(code, id);
+        self.entry_mut(id).code = code as f64;
     }
 
     /// Takes one line of the published table.
@@ -335,7 +371,7 @@ impl Vocabulary {
             Some(id) => id,
             None => self.insert(Cow::Borrowed(name), hash, 0),
         };
-        let entry = self.entry_mut(id.index());
+        let entry = self.entry_mut(id);
         entry.class |= match class {
             "major" => MAJOR,
             "minor" => MINOR,

@@ -176,13 +176,15 @@ fn newest(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 
 /// Refuses programs of the same name, and one over a CL file.
 fn refuse_collisions(jobs: &[Job]) -> Result<(), Error> {
-    let read: HashMap<PathBuf, &Path> = jobs.iter().map(|job| (real(&job.cl), &*job.cl)).collect();
+    let read = jobs.iter().map(|job| (files::real_path(&job.cl), &*job.cl));
+    let read: HashMap<PathBuf, &Path> = read.collect();
     let mut written: HashMap<PathBuf, &Path> = HashMap::new();
     for job in jobs {
         for path in job.output.iter().chain(&job.map) {
             // Case is no difference on many disks.
-            let name = PathBuf::from(real(path).to_string_lossy().to_lowercase());
-            let other = written.insert(name, &job.cl).or(read.get(&real(path)).copied());
+            let real = files::real_path(path);
+            let name = PathBuf::from(real.to_string_lossy().to_lowercase());
+            let other = written.insert(name, &job.cl).or(read.get(&real).copied());
             if let Some(other) = other {
                 let (cl, other) = (job.cl.display(), other.display());
                 let message =
@@ -192,14 +194,6 @@ fn refuse_collisions(jobs: &[Job]) -> Result<(), Error> {
         }
     }
     Ok(())
-}
-
-/// The real path of a file that need not be there.
-fn real(path: &Path) -> PathBuf {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let there = folder.unwrap_or(Path::new(".")).canonicalize();
-    let named = there.map(|folder| folder.join(path.file_name().unwrap_or_default()));
-    path.canonicalize().or(named).unwrap_or_else(|_| path.to_path_buf())
 }
 
 /// Runs the jobs on all cores and hands the outcomes out in their order.

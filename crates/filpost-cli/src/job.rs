@@ -116,15 +116,15 @@ fn post(
         run = run.debug(&debugger);
     }
     let input = Watched { input, bar, at: 0, furthest: 0 };
-    let seen = names(&program, job, job.map.as_deref().unwrap_or(Path::new("")));
+    let seen = || names(&program, job, job.map.as_deref().unwrap_or(Path::new("")));
     let (report, pending) = match (&mut map, copies.as_mut().map(Copies::writers)) {
-        (Some(map), None) => run.run_mapped(input, &mut nc, &seen, map)?,
+        (Some(map), None) => run.run_mapped(input, &mut nc, &seen(), map)?,
         (None, None) => run.run_pending(input, &mut nc)?,
         (Some(map), Some((nc_copy, map_copy))) => {
-            run.run_mapped(input, Both(&mut nc, nc_copy), &seen, &mut Both(map, map_copy))?
+            run.run_mapped(input, Both(&mut nc, nc_copy), &seen(), &mut Both(map, map_copy))?
         }
         (None, Some((nc_copy, map))) => {
-            run.run_mapped(input, Both(&mut nc, nc_copy), &seen, map)?
+            run.run_mapped(input, Both(&mut nc, nc_copy), &seen(), map)?
         }
     };
     let listing = match (listing, &job.listing) {
@@ -137,10 +137,13 @@ fn post(
     let warnings = program.warnings().iter().chain(&report.warnings);
     outcome.warnings = warnings.cloned().collect();
     deny(args.deny_warnings, outcome.warnings.len())?;
-    output::refuse_over(outputs(job, picture), report.script_reads.iter().map(PathBuf::as_path))?;
+    if !report.script_reads.is_empty() {
+        let reads = report.script_reads.iter().map(PathBuf::as_path);
+        output::refuse_over(outputs(job, picture), reads)?;
+    }
     refuse_scripts(job, posts.taken(), &inputs, &pending)?;
     if let Some(copies) = copies {
-        let (found, lines) = copies.audit(start(), again, (&name, &seen.nc), &program)?;
+        let (found, lines) = copies.audit(start(), again, (&name, &seen().nc), &program)?;
         outcome.audit = lines;
         if let Some(path) = &job.audit {
             let text = format!("{:#}\n", filpost::audit::as_json(&found));
@@ -178,12 +181,8 @@ fn refuse_scripts(
     inputs: &[PathBuf],
     pending: &PendingFiles,
 ) -> Result<(), Error> {
-    let taken = inputs.iter().chain(others).map(PathBuf::as_path);
-    let taken: Vec<&Path> = taken.chain(outputs(job, None)).collect();
-    for path in pending.paths() {
-        output::refuse_over([path], taken.iter().copied())?;
-    }
-    Ok(())
+    let taken = || inputs.iter().chain(others).map(PathBuf::as_path).chain(outputs(job, None));
+    pending.paths().try_for_each(|path| output::refuse_over([path], taken()))
 }
 
 /// The post of the job, and where it comes from; afterwards the input stands at its

@@ -40,19 +40,22 @@ impl Known {
     }
 }
 
-/// The statements known by now, each in the place its first line names.
+/// The statements known by now.
 pub(super) struct Repeated {
-    known: Box<[[Known; KEPT]; PLACES]>,
-    /// Place and number of the two that came last: one of them comes next in most files.
-    last: [(usize, usize); 2],
+    /// The first is none.
+    known: Vec<Known>,
+    /// Which of them stand in the place that their first line names.
+    places: [[u8; KEPT]; PLACES],
+    /// The two that came last: one of them comes next in most files.
+    last: [u8; 2],
     /// Place of the statement that was looked for and not found: it is kept there once it is read.
     missed: Option<usize>,
 }
 
 impl Default for Repeated {
     fn default() -> Self {
-        let known = Box::new(std::array::from_fn(|_| Default::default()));
-        Repeated { known, last: [(0, 0); 2], missed: None }
+        let known = vec![Known::default()];
+        Repeated { known, places: [[0; KEPT]; PLACES], last: [0; 2], missed: None }
     }
 }
 
@@ -62,28 +65,27 @@ impl Repeated {
     #[inline]
     pub(super) fn read(&mut self, text: &[u8], record: &mut Record) -> Option<(usize, u32)> {
         let [last, before] = self.last;
-        if !self.known[last.0][last.1].begins(text) {
-            let found =
-                if self.known[before.0][before.1].begins(text) { before } else { self.find(text)? };
-            self.last = [found, last];
+        if !self.known[usize::from(last)].begins(text) {
+            let is_before = self.known[usize::from(before)].begins(text);
+            self.last = [if is_before { before } else { self.find(text)? }, last];
         }
-        let (place, number) = self.last[0];
-        let known = &self.known[place][number];
+        let known = &self.known[usize::from(self.last[0])];
         copy(&known.record, record);
         Some((known.text.len(), known.lines))
     }
 
-    /// Place and number of the statement at the start of `text`.
-    fn find(&mut self, text: &[u8]) -> Option<(usize, usize)> {
+    /// The statement at the start of `text`.
+    fn find(&mut self, text: &[u8]) -> Option<u8> {
         self.missed = None;
         let head = &text[..text.len().min(LONGEST)];
         let length = memchr::memchr(b'\n', head)? + 1;
         let place = place(&head[..length]);
-        let found = self.known[place].iter().position(|known| known.begins(text));
+        let is_it = |known: &u8| self.known[usize::from(*known)].begins(text);
+        let found = self.places[place].into_iter().find(is_it);
         if found.is_none() {
             self.missed = Some(place);
         }
-        Some((place, found?))
+        found
     }
 
     /// Keeps the statement of so many lines that was looked for last, unless its record depends on the
@@ -94,9 +96,13 @@ impl Repeated {
             || matches!(record.major, words::MULTAX | words::TLAXIS | words::GOHOME);
         let is_whole = text.len() <= LONGEST_STATEMENT && text.ends_with(b"\n");
         let Some(place) = self.missed.take().filter(|_| is_whole && !is_modal) else { return };
-        let place = &mut self.known[place];
+        let place = &mut self.places[place];
         place.rotate_right(1);
-        let known = &mut place[0];
+        if place[0] == 0 {
+            place[0] = self.known.len() as u8;
+            self.known.push(Known::default());
+        }
+        let known = &mut self.known[usize::from(place[0])];
         known.text.clear();
         known.text.extend_from_slice(text);
         known.lines = lines;
