@@ -57,9 +57,9 @@ fn main() -> Outcome<()> {
 }
 
 fn size(command: &Path, folder: &Path, megabytes: u64, table: &mut Table) -> Outcome<()> {
-    let paths = ["part.ncl", "out.nc", "same.nc", "edited.nc", "moved.nc", "out.html"];
+    let paths = ["part.ncl", "out.nc", "same.nc", "edited.nc", "moved.nc", "out.html", "out.lst"];
     let paths = paths.map(|name| folder.join(name));
-    let [cl, nc, same, edited, moved, html] = &paths;
+    let [cl, nc, same, edited, moved, html, _] = &paths;
     cl_file::write(cl, megabytes * 1_000_000)?;
     let names = paths.each_ref().map(|path| path.display().to_string());
     let names = names.each_ref().map(String::as_str);
@@ -100,10 +100,10 @@ fn size(command: &Path, folder: &Path, megabytes: u64, table: &mut Table) -> Out
 }
 
 /// What is run on the files of these names: CL file, program, the same program, an edited one,
-/// one with blocks moved, the page. `asked` are a line of the program and one of the CL file,
+/// one with blocks moved, the page, the listing. `asked` are a line of the program and one of the CL file,
 /// `post` the seconds of posting 1.5 million blocks.
-fn jobs<'n>(names: &[&'n str; 6], asked: &'n [String; 2], post: f64) -> Vec<Job<'n>> {
-    let [cl, nc, same, edited, moved, html] = *names;
+fn jobs<'n>(names: &[&'n str; 7], asked: &'n [String; 2], post: f64) -> Vec<Job<'n>> {
+    let [cl, nc, same, edited, moved, html, listing] = *names;
     let machine = ["-p", "linuxcnc-mill"];
     let job = |name, arguments: &[&'n str], seconds, memory| Job {
         name,
@@ -124,7 +124,13 @@ fn jobs<'n>(names: &[&'n str; 6], asked: &'n [String; 2], post: f64) -> Vec<Job<
         plain("trace, a block", &["trace", &asked[0]], Some(0.1), None),
         plain("trace, a record", &["trace", &asked[1]], None, None),
         job("verify", &["verify", cl, nc], Some(3.0 * post), Some(64.0)),
-        job("plot", &["plot", nc, "-o", html], None, None),
+        job(
+            "post --listing",
+            &["post", cl, "-o", same, "--listing", listing],
+            Some(3.0 * post),
+            Some(32.0),
+        ),
+        job("plot", &["plot", nc, "-o", html], Some(6.0 * post), Some(128.0)),
         job("plot --cl", &["plot", nc, "--cl", cl, "-o", html], None, None),
     ]
 }
