@@ -40,7 +40,7 @@ await page.locator("#nc .cm-content", { hasText: "G3 X50. Y10." }).waitFor();
 await page.locator("#open-tabs [role=tab]", { hasText: "Machine" }).click();
 await page.locator('[id="set-seqno.increment"]').fill("5");
 await page.locator('[id="set-seqno.increment"]').press("Enter");
-await page.locator("#nc .cm-content", { hasText: /\bN15\b/ }).waitFor();
+await page.locator("#nc .cm-content", { hasText: "N15 G53" }).waitFor();
 await page.locator("#cause", { hasText: "The last change" }).waitFor();
 await take("studio-machine");
 
@@ -80,7 +80,7 @@ await take("studio");
 // Over the path of its CL file, with the tool on its way.
 await page.locator("#second").selectOption({ label: "plate.ncl" });
 await page.locator(".fv-legend label", { hasText: "plate.ncl" }).waitFor();
-for (let step = 0; step < 12; step++) await page.getByRole("button", { name: "One motion back" }).click();
+for (let step = 0; step < 2; step++) await page.getByRole("button", { name: "One motion back" }).click();
 await page.waitForTimeout(600);
 await take("studio-path");
 await page.keyboard.press("Control+s");
