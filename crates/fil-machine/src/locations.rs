@@ -203,7 +203,7 @@ pub const RANGE_CODES: [CodeAt; 6] = [
     SPINDLE_RANGE6_CODE,
 ];
 
-/// Least and greatest speed of each spindle range, turns/min.
+/// Least and greatest speed of each spindle range, rpm.
 pub const RANGE_SPEEDS: [(Rel, Rel); 6] = [
     (SPINDLE_RANGE1_MIN, SPINDLE_RANGE1_MAX),
     (SPINDLE_RANGE2_MIN, SPINDLE_RANGE2_MAX),

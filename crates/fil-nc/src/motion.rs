@@ -238,7 +238,7 @@ pub struct SpindleModes {
     pub range: Option<u8>,
     /// Its speed; `None` before the first, and after a change between turns and surface speed.
     pub speed: Option<Speed>,
-    /// What surface speed may turn it up to, turns/min; `None` before the first limit.
+    /// What surface speed may turn it up to, rpm; `None` before the first limit.
     pub speed_limit: Option<f64>,
 }
 

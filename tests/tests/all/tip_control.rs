@@ -73,14 +73,14 @@ fn faults_are_said_in_a_machinists_words() {
             "the tool is tilted 49.0358 degrees away from its axis",
         ),
         ("F420.0", "F42.0", FindingKind::Feed, "feed 42 mm/min, it should be 420 mm/min"),
-        ("H15", "H5", FindingKind::Tool, "length offset 5 is on, it should be 15"),
+        ("H15", "H5", FindingKind::Tool, "length offset 5 is active, it should be 15"),
         (
             "G43.4 H15",
             "G43 H15",
             FindingKind::Position,
             "X off by 35.4535 (X31.251 in place of X-4.2025), Y off by 34.6006 (Y-14.499 in place of Y20.1016), Z higher by 0.2951 (Z48.75 in place of Z48.4549)",
         ),
-        ("G49\nM30", "M30", FindingKind::Tool, "TCPC is on, it should be off"),
+        ("G49\nM30", "M30", FindingKind::Tool, "TCPC is active, it should be off"),
         ("M8\n", "M9\n", FindingKind::Coolant, "coolant is off, it should be on by M8"),
     ] {
         let report = first(old, new);

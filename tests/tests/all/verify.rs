@@ -280,11 +280,11 @@ fn findings_are_a_machinists_words() {
             "S2500",
             "S250",
             FindingKind::Speed,
-            "the spindle has 250 turns/min, it should be 2500 turns/min",
+            "the spindle has 250 rpm, it should be 2500 rpm",
         ),
         ("F120.", "F1200.", FindingKind::Feed, "feed 1200 mm/min, it should be 120 mm/min"),
         ("T12", "T13", FindingKind::Tool, "changes to tool 13, it should be tool 12"),
-        ("H12", "H1", FindingKind::Tool, "length offset 1 is on, it should be 12"),
+        ("H12", "H1", FindingKind::Tool, "length offset 1 is active, it should be 12"),
         ("Q4.", "Q5.", FindingKind::Cycle, "the hole is deeper by 1 (Z-3.5 in place of Z-2.5)"),
         ("P500", "P50", FindingKind::Dwell, "dwell of 0.05 s, it should be 0.5 s"),
         ("\nN80 X12.5", "\n", FindingKind::Missing, "no hole at X12.5 Y0"),
@@ -318,7 +318,7 @@ fn findings_of_a_lathe() {
             "G96 S180",
             "G97 S180",
             FindingKind::Speed,
-            "the spindle has 180 turns/min, it should be a surface speed of 180 m/min",
+            "the spindle has 180 rpm, it should be a surface speed of 180 m/min",
         ),
         (
             "S183",
@@ -354,7 +354,7 @@ fn a_length_offset_is_called_again_after_a_tool_change() {
     let report = check(case, &without).expect("a report");
     let first = report.findings.first().expect("a finding");
     assert_eq!(first.kind, FindingKind::Tool, "{}", listed(&report));
-    assert!(first.message.starts_with("no length offset is on"), "{first}");
+    assert!(first.message.starts_with("no length offset is active"), "{first}");
 }
 
 /// A feed in inverse time is the time that the way of the tip takes: 29.7001 mm here.

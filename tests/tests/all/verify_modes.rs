@@ -347,7 +347,7 @@ fn the_number_of_a_reference_point_is_read() {
 /// say that what the CL file moves behind it goes without.
 #[test]
 fn a_way_behind_a_text_that_takes_the_length_off_is_found_without_it() {
-    let missing = "no length offset is on, it should be 1";
+    let missing = "no length offset is active, it should be 1";
     for text in ["G53 G0 Z0 D0", "SUPA G0 Z0 D0", "D0"] {
         let cl = format!("{TOOL}; {DOWN}; INSERT / {text}; RAPID; GOTO / 20, 0, 50");
         let nc = format!("{SINUMERIK}; {text}; G0 X20 Y0; Z50; M30");

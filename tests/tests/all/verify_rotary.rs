@@ -155,7 +155,7 @@ fn tip_control_ends_and_begins_again_beside_other_records() {
     let settings = &["home.frame=1", "home.retract_z=0"];
     Case { ready, settings, cl: &cl, nc: &nc }.agrees_but_not_with(
         ("G43.4 H1; X10. Y0. Z5.".replace("; ", "\n").as_str(), "G43.4 H2\nX10. Y0. Z5."),
-        "length offset 2 is on, it should be 1",
+        "length offset 2 is active, it should be 1",
     );
     // Another work offset ends it and begins it again, with a dwell between, and where it stays.
     let settings = &["rotary.tip_control=1"];

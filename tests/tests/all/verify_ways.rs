@@ -115,13 +115,13 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
             "corpus/lathe/fanuc-mill-turn/compensated",
             "M30",
             "M30 S77",
-            "the spindle has 77 turns/min, none is asked for",
+            "the spindle has 77 rpm, none is asked for",
         ),
         (
             "corpus/lathe/fanuc-mill-turn/turn-then-drill",
             "T0505",
             "T0505 S77",
-            "the spindle has 77 turns/min, none is asked for",
+            "the spindle has 77 rpm, none is asked for",
         ),
         // A plane that nobody has asked for, whose normal the length of the tool acts along.
         ("corpus/sinumerik/tools", "N60 Z50", "N60 G18 Z50", "G18 of line 7 is in force"),
@@ -179,7 +179,7 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
         ("corpus/sinumerik/tools", "\nN170 G0", "\nN165 CFC\nN170 G0", "is followed"),
         ("corpus/mills/fanuc-mill/tools", "G43", "G64 G43", "changes how the path is followed"),
         ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 10.1 ROT+35\n16 L", "is not followed"),
-        ("corpus/sinumerik/orient", "N120 M5", "N120 M5 S77", "the spindle has 77 turns/min"),
+        ("corpus/sinumerik/orient", "N120 M5", "N120 M5 S77", "the spindle has 77 rpm"),
         (
             "words/rotary-limit-retracts-and-returns",
             "M5\n",

@@ -51,7 +51,7 @@ pub fn columns(drawing: &Drawing<'_>) -> Vec<u8> {
     columns.finish(&head(drawing, &extent, &base))
 }
 
-/// What is in force: the feed in mm/min (kind 1) or mm a turn (2), none (0); the speed in turns/min
+/// What is in force: the feed in mm/min (kind 1) or mm a turn (2), none (0); the speed in rpm
 /// (1) or m/min at the surface (2), none (0); the spindle off (0), clockwise (1),
 /// counterclockwise (2); the work offset and 1, or 0 without one.
 fn in_force(columns: &mut Columns, path: &Trace) {

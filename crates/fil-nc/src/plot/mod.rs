@@ -141,7 +141,7 @@ pub struct InForce {
     pub feed: Option<Rate>,
     /// Speed of the spindle.
     pub speed: Option<Speed>,
-    /// What surface speed may turn the spindle up to, turns/min.
+    /// What surface speed may turn the spindle up to, rpm.
     pub speed_limit: Option<f64>,
     /// What the spindle does.
     pub spindle: Spindle,

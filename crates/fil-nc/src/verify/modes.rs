@@ -373,7 +373,7 @@ impl Expected {
         ends
     }
 
-    /// The speed that must be in force, turns/min; `None` for a surface speed, and where
+    /// The speed that must be in force, rpm; `None` for a surface speed, and where
     /// none is known.
     pub(super) fn turns_a_minute(&self) -> Option<f64> {
         self.spindle.speed.asked().and_then(Speed::turns)

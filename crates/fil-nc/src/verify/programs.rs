@@ -368,7 +368,7 @@ impl Pair<'_> {
             (
                 a.length.offset != b.length.offset,
                 FindingKind::Tool,
-                "another length offset is on".to_string(),
+                "another length offset is active".to_string(),
             ),
             (
                 a.frame.tip_control != b.frame.tip_control,
@@ -443,7 +443,7 @@ impl Pair<'_> {
             (
                 a.frame.fixture != b.frame.fixture,
                 FindingKind::Fixture,
-                "another work offset is on".to_string(),
+                "another work offset is active".to_string(),
             ),
         ];
         for (differs, kind, message) in checks {

@@ -13,7 +13,7 @@ pub struct Cutter {
     pub ball: bool,
     /// Diameter, mm.
     pub diameter: f64,
-    /// Spindle speed, turns/min.
+    /// Spindle speed, rpm.
     pub speed: f64,
     /// Feed at the surface of the blank, mm/min.
     pub feed: f64,

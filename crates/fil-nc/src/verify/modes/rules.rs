@@ -50,7 +50,7 @@ pub(super) const RULES: [(FindingKind, Rule); 15] = [
 /// What must be off where a tool is changed and at the end, besides.
 pub(super) const STANDING: [(FindingKind, Rule); 2] = [
     (FindingKind::Tool, |_, seen| {
-        let said = "TCPC is on, it should be off";
+        let said = "TCPC is active, it should be off";
         seen.modes.frame.tip_control.then(|| said.to_string())
     }),
     (FindingKind::Tool, |_, seen| {
@@ -199,16 +199,16 @@ fn same_speed(must: Speed, found: Option<Speed>, slack: &Tolerances) -> bool {
 
 fn said_of_speed(speed: Speed) -> String {
     match speed {
-        Speed::Turns(speed) => format!("{} turns/min", short(speed)),
+        Speed::Turns(speed) => format!("{} rpm", short(speed)),
         Speed::Surface(speed) => format!("a surface speed of {} m/min", short(speed)),
     }
 }
 
 pub(super) fn said_of_offset(found: Option<u32>, must: Option<u32>) -> String {
     match (found, must) {
-        (Some(found), Some(must)) => format!("length offset {found} is on, it should be {must}"),
-        (Some(found), None) => format!("length offset {found} is on, none is asked for"),
-        (None, Some(must)) => format!("no length offset is on, it should be {must}"),
+        (Some(found), Some(must)) => format!("length offset {found} is active, it should be {must}"),
+        (Some(found), None) => format!("length offset {found} is active, the CL file asks for none"),
+        (None, Some(must)) => format!("no length offset is active, it should be {must}"),
         (None, None) => String::new(),
     }
 }

@@ -337,7 +337,7 @@ impl Settings<'_> {
         self.commons.int(loc::THREAD_SPRINGS).max(0).unsigned_abs()
     }
 
-    /// The highest speed that the machine gives before a surface speed, turns/min.
+    /// The highest speed that the machine gives before a surface speed, rpm.
     pub fn surface_limit(&self) -> Option<f64> {
         self.commons.dbl_opt(loc::SPINDLE_CSS_LIMIT)
     }
@@ -390,7 +390,7 @@ impl Settings<'_> {
         })
     }
 
-    /// The limit of surface speed that the start of the program sets, turns/min.
+    /// The limit of surface speed that the start of the program sets, rpm.
     pub fn speed_limit_at_start(&self) -> Option<f64> {
         let code = i64::from(self.commons.read(loc::SPINDLE_MAX_CODE).map(number)?);
         let of_block = |block: String| {

@@ -86,7 +86,7 @@ pub enum Quantity {
     Lead,
     /// Feed in inverse time, blocks a minute.
     InverseTime,
-    /// Spindle speed, turns/min.
+    /// Spindle speed, rpm.
     Speed,
     /// Surface speed, m/min.
     SurfaceSpeed,

@@ -97,7 +97,7 @@ pub(in crate::control) fn take_range_of(control: &mut Control, speed: f64) -> Re
     match found {
         Some(index) if before == Some(index) => Ok(()),
         Some(index) => control.because(control.block.cause, |control| select_range(control, index)),
-        None => PostCode::WordForm.err(format!("SPINDL: no spindle range holds {speed} turns/min")),
+        None => PostCode::WordForm.err(format!("SPINDL: no spindle range holds {speed} rpm")),
     }
 }
 
