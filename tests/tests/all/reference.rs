@@ -7,8 +7,11 @@ use std::collections::BTreeMap;
 
 use fil_post::no_effect;
 use filpost::builtins::BUILTINS;
+use filpost::cl::reader::Options;
 use filpost::commons::EMPTY;
 use filpost::locations::{TABLE, default_commons};
+use filpost::nc::plot::{View, svg};
+use filpost::plot::{self, ClText, Text};
 use filpost::postf::{Grade, POSTF};
 use filpost::ready::READY;
 use filpost::statements::STATEMENTS;
@@ -412,6 +415,25 @@ fn with_program(page: &str, block: &str) -> Option<String> {
     Some(format!("{}{block}{}", &page[..start], &page[end..]))
 }
 
+/// The picture of the path of a CL file, as it must be: a part that is turned from the side.
+fn picture_of(cl: &str) -> String {
+    let bytes = std::fs::read(root().join(cl)).expect("a CL file");
+    let text = Text { name: cl, bytes: &bytes };
+    let drawing = plot::cl_file(ClText { text, options: Options::default(), unit: None });
+    let drawing = drawing.expect("the path of a CL file");
+    let is_turned = drawing.extent().is_some_and(|extent| extent.min[1] == extent.max[1]);
+    let picture = svg(&drawing, &[if is_turned { View::Zx } else { View::Isometric }]);
+    let name = cl.strip_suffix("/part.ncl").unwrap_or(cl.trim_end_matches(".ncl"));
+    let path = format!("docs/paths/{}.svg", name.rsplit('/').next().unwrap_or(name));
+    let file = root().join(&path);
+    if std::env::var_os("FILPOST_UPDATE").is_some() {
+        std::fs::create_dir_all(root().join("docs/paths")).expect("a folder");
+        std::fs::write(&file, &picture).expect("the picture is written");
+    }
+    assert_eq!(std::fs::read_to_string(&file).unwrap_or_default(), picture, "{path}");
+    path
+}
+
 #[test]
 fn the_page_of_each_ready_post_shows_its_program() {
     for post in READY {
@@ -431,5 +453,9 @@ fn the_page_of_each_ready_post_shows_its_program() {
             std::fs::write(&file, &page).expect("the page is written");
         }
         assert!(page.contains(&block), "{}", file.display());
+        let said = page.lines().find_map(|line| line.strip_suffix("` as the post writes it:"));
+        let cl = said.and_then(|said| said.strip_prefix('`')).expect("the CL file of the program");
+        let picture = picture_of(cl);
+        assert!(page.contains(&format!("](../../../{picture})\n")), "{}", file.display());
     }
 }

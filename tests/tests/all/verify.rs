@@ -276,12 +276,7 @@ fn findings_are_a_machinists_words() {
             FindingKind::Spindle,
             "the spindle is counterclockwise, it should be clockwise",
         ),
-        (
-            "S2500",
-            "S250",
-            FindingKind::Speed,
-            "the spindle has 250 rpm, it should be 2500 rpm",
-        ),
+        ("S2500", "S250", FindingKind::Speed, "the spindle has 250 rpm, it should be 2500 rpm"),
         ("F120.", "F1200.", FindingKind::Feed, "feed 1200 mm/min, it should be 120 mm/min"),
         ("T12", "T13", FindingKind::Tool, "changes to tool 13, it should be tool 12"),
         ("H12", "H1", FindingKind::Tool, "length offset 1 is active, it should be 12"),

@@ -33,13 +33,13 @@ pub fn write(tree: &mut Tree, args: &Args) -> Result<String, String> {
     };
     let machine: String = begins_from.machine.lines().map(named).collect();
     tree.create(&format!("{folder}/machine.toml"), &machine)?;
-    tree.create(&format!("{folder}/README.md"), &readme(name, base))?;
     let row = format!("    \"{name}\",");
     tree.change("fil-scripts/posts.rs", |text| with_line(text, "ready![", "    \"", &row))?;
     let row = format!("| `{name}` | which machines and controls |");
     tree.change("docs/machine.md", |text| with_line(text, "| `brother-mill` |", "| `", &row))?;
     let cases = "corpus/posts";
     let case = tree.read(&format!("{cases}/{base}/production/case.toml"))?;
+    tree.create(&format!("{folder}/README.md"), &readme(name, base, part(&case)))?;
     let case = case.replace(&format!("ready = \"{base}\""), &format!("ready = \"{name}\""));
     tree.create(&format!("{cases}/{name}/production/case.toml"), &case)?;
     Ok(format!(
@@ -55,10 +55,17 @@ pub fn write(tree: &mut Tree, args: &Args) -> Result<String, String> {
     ))
 }
 
-fn readme(name: &str, base: &str) -> String {
+/// Name of the CL file of a case, of those that the posts share.
+fn part(case: &str) -> &str {
+    let cl = case.lines().find_map(|line| line.strip_prefix("cl = \"../../cl/"));
+    cl.and_then(|cl| cl.strip_suffix(".ncl\"")).unwrap_or("mill-two-tools")
+}
+
+fn readme(name: &str, base: &str, part: &str) -> String {
     format!(
         "# {name}\n\nFor which machines and controls; by which manual.\n\nIt began as a copy of `{base}`.\n\n## Assumed\n\n\
          - What the control must have set.\n\n## Refused\n\n- What this post does not do.\n\n\
-         ## Its program\n\n```nc\n```\n"
+         ## Its program\n\n`corpus/posts/cl/{part}.ncl` as the post writes it:\n\n```nc\n```\n\n\
+         ![The path of {part}](../../../docs/paths/{part}.svg)\n"
     )
 }
