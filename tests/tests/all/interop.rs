@@ -49,11 +49,15 @@ fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
 
 /// The NC program a ready post makes of a CL file.
 fn post_with(ready: &str, cl: &Path) -> Vec<u8> {
+    try_post(ready, cl).unwrap_or_else(|error| panic!("{}: {error}", cl.display()))
+}
+
+fn try_post(ready: &str, cl: &Path) -> Result<Vec<u8>, filpost::Error> {
     let post = filpost::Program::builder().generic(ready).build().unwrap();
     let mut nc = Vec::new();
     let input = io::BufReader::new(File::open(cl).unwrap());
-    post.stream(input, &mut nc).unwrap_or_else(|error| panic!("{}: {error}", cl.display()));
-    nc
+    post.stream(input, &mut nc)?;
+    Ok(nc)
 }
 
 fn expected(cl: &Path) -> ToolPath {
@@ -98,17 +102,30 @@ fn programs_of_the_ready_mills_make_the_path_of_their_cl_file() {
     let Some(program) = rs274::program() else { return };
     let posts = ["fanuc-mill", "haas-mill", "mazak-mill", "mitsubishi-mill", "brother-mill"];
     let posts = posts.into_iter().chain(["mach3-mill", "mach4-mill"]).map(|ready| (ready, ready));
-    let alike = [("syntec-mill", "fanuc-mill"), ("centroid-mill", "fanuc-mill")];
+    let alike = [
+        ("syntec-mill", "fanuc-mill"),
+        ("centroid-mill", "fanuc-mill"),
+        ("hurco-mill", "fanuc-mill"),
+        ("masso-mill", "mach3-mill"),
+        ("uccnc-mill", "mach3-mill"),
+        ("fluidnc", "mach3-mill"),
+        ("tormach-mill", "mach3-mill"),
+    ];
     let programs: Vec<_> = posts
         .chain(alike)
-        .chain([("masso-mill", "mach3-mill")])
         .flat_map(|(ready, like)| mills_taken_by(like).into_iter().map(move |cl| (ready, like, cl)))
         // Offsets beyond the sixth are another matter of each control.
         .filter(|(ready, like, cl)| ready == like || !cl.ends_with("further.ncl"))
         .map(|(ready, _, cl)| (ready, cl))
         .collect();
+    // What only the post that it is like can do is refused.
+    let is_own = |ready: &str| !alike.iter().any(|(other, _)| *other == ready);
     let is_judged = |ready: &str, cl: &Path| {
-        let nc = String::from_utf8(post_with(ready, cl)).unwrap();
+        let nc = match try_post(ready, cl) {
+            Err(_) if !is_own(ready) => return false,
+            made => made.unwrap_or_else(|error| panic!("{ready} {}: {error}", cl.display())),
+        };
+        let nc = String::from_utf8(nc).unwrap();
         let nc = SAID_OTHERWISE.iter().fold(nc, |nc, (theirs, its)| nc.replace(theirs, its));
         if NOT_ITS.iter().any(|word| nc.contains(word)) {
             return false;
@@ -120,9 +137,16 @@ fn programs_of_the_ready_mills_make_the_path_of_their_cl_file() {
         assert!(differences.is_empty(), "{ready} {}:{list}\n{nc}", cl.display());
         true
     };
-    let judged = programs.par_iter().filter(|(ready, cl)| is_judged(ready, cl)).count();
-    assert!(judged > 40, "only {judged} programs");
-    println!("{judged} programs agree");
+    let judged: Vec<&str> = programs
+        .par_iter()
+        .filter(|(ready, cl)| is_judged(ready, cl))
+        .map(|(ready, _)| *ready)
+        .collect();
+    for (ready, _) in &programs {
+        let count = judged.iter().filter(|judged| *judged == ready).count();
+        assert!(count > 2, "{ready}: only {count} programs");
+    }
+    println!("{} programs agree", judged.len());
 }
 
 /// Each arc turned round in a program of the post must be noticed.
