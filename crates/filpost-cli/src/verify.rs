@@ -236,7 +236,10 @@ fn conclusion(args: &VerifyArgs, report: &Report, reference: Reference) -> Strin
         (Verdict::Agrees, Reference::SecondRun) => {
             format!("{nc} does what a second run of the post makes of {cl}")
         }
-        (Verdict::Partly, _) if report.compared == 0 => {
+        (Verdict::Partly, Reference::SecondRun) if report.compared == 0 => {
+            return format!("{nc} reads as a second run of the post does, and its path is not known");
+        }
+        (Verdict::Partly, Reference::ClFile) if report.compared == 0 => {
             return format!("nothing of {nc} could be compared with {cl}");
         }
         (Verdict::Partly, _) => format!("{nc} agrees with {cl} as far as it was compared"),
