@@ -214,6 +214,12 @@ mod tests {
         assert_eq!(lengths, [2, 2, 3, 0]);
     }
 
+    /// Keeps a statement of one line, which nobody has kept before.
+    fn look_and_keep(repeated: &mut Repeated, text: &[u8], record: &Record) {
+        assert!(repeated.read(text, &mut Record::default()).is_none());
+        repeated.keep(text, 1, record);
+    }
+
     #[test]
     fn statements_that_share_a_place_are_kept_both() {
         let mut repeated = Repeated::default();
@@ -223,11 +229,11 @@ mod tests {
         let feeds: Vec<String> = texts.filter(shares).take(KEPT).collect();
         let record = Record { kind: kind::POST, ..Record::default() };
         let mut found = Record::default();
-        repeated.keep(rapid, 1, &record);
-        repeated.keep(feeds[0].as_bytes(), 1, &record);
+        look_and_keep(&mut repeated, rapid, &record);
+        look_and_keep(&mut repeated, feeds[0].as_bytes(), &record);
         assert!(repeated.read(rapid, &mut found).is_some());
         assert!(repeated.read(feeds[0].as_bytes(), &mut found).is_some());
-        repeated.keep(feeds[1].as_bytes(), 1, &record);
+        look_and_keep(&mut repeated, feeds[1].as_bytes(), &record);
         assert!(repeated.read(rapid, &mut found).is_none());
     }
 
@@ -235,9 +241,9 @@ mod tests {
     fn what_depends_on_other_statements_is_not_kept() {
         let mut repeated = Repeated::default();
         let motion = Record { kind: kind::MOTION, ..Record::default() };
-        repeated.keep(b"GOTO / 1,2,3\n", 1, &motion);
+        look_and_keep(&mut repeated, b"GOTO / 1,2,3\n", &motion);
         let rapid = Record { kind: kind::POST, data: vec![Word::Empty], ..Record::default() };
-        repeated.keep(b"RAPID\n", 1, &rapid);
+        look_and_keep(&mut repeated, b"RAPID\n", &rapid);
         let mut found = Record::default();
         assert_eq!(repeated.read(b"GOTO / 1,2,3\n", &mut found), None);
         assert_eq!(repeated.read(b"RAPID\nRAPID\n", &mut found), Some((6, 1)));
