@@ -76,8 +76,8 @@ groups! {
     DiameterMode,
     /// Tool center point control (G43.4).
     Tcpc,
-    /// The tilted work plane (G68.2, G69).
-    WorkPlane,
+    /// Coordinates that are turned against the axes (G68, G68.2, G69).
+    WorkPlane(WorkPlane),
     /// Acts in its block alone, or on what the post does not depend on.
     OneBlock,
     /// A program stop (M0, M1).
@@ -142,6 +142,8 @@ pub enum Origin {
     Local,
     /// A preset of the axes (G92).
     Preset,
+    /// Mirrored axes, and the end of it (G51.1, G50.1).
+    Mirror,
     /// Polar or cylindrical interpolation (G12.1, G7.1).
     Interpolation,
     /// Anything else that moves it (G10, G29, G50).
@@ -161,9 +163,26 @@ impl Origin {
 
     /// True for a code that leaves the work offset in force.
     pub const fn keeps_offset(self) -> bool {
-        self.is_of_machine()
-            || matches!(self, Origin::ReferenceCheck | Origin::Local | Origin::Preset)
+        self.is_of_machine() || matches!(self, Origin::ReferenceCheck) || self.is_of_its_words()
     }
+
+    /// True for a code that gives another zero to the axes of its block alone, to all where it
+    /// names none.
+    pub const fn is_of_its_words(self) -> bool {
+        matches!(self, Origin::Local | Origin::Preset | Origin::Mirror)
+    }
+}
+
+/// How coordinates are turned against the axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum WorkPlane {
+    /// They are not (G69).
+    #[default]
+    Off,
+    /// In the plane in force, about its normal (G68).
+    Rotated,
+    /// In space, as a tilted work plane (G68.2).
+    Tilted,
 }
 
 /// The tool length offset.

@@ -304,6 +304,8 @@ pub struct Hole {
     pub retract: Option<f64>,
     /// Peck.
     pub step: Option<f64>,
+    /// Of so many pecks that break chips the last one leaves the hole.
+    pub out_each: Option<u32>,
     /// Dwell at the bottom, seconds; `None` where the machine's settings give it.
     pub dwell: Option<f64>,
     /// Feed.

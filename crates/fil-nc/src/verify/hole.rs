@@ -183,9 +183,9 @@ impl<C: Steps> Verifier<'_, C> {
             return Err((self.next_line(), message));
         }
         let rest = self.approach(cl_line, hole, levels)?;
-        // The last peck, as the tape has it.
+        // The last peck, as the tape has it, and its number.
         let mut reached: Option<f64> = None;
-        let mut line = 0;
+        let (mut line, mut peck) = (0, 0);
         let in_cycle = self.next_move().is_some_and(|found| found.in_cycle);
         for depth in self.depths(hole, levels, in_cycle) {
             if let Some(reached) = reached {
@@ -193,8 +193,9 @@ impl<C: Steps> Verifier<'_, C> {
                     // The last peck of the tape is the bottom, to the last digit.
                     break;
                 }
-                self.between_pecks(cl_line, hole, levels, reached)?;
+                self.between_pecks(cl_line, hole, levels, (peck, reached))?;
             }
+            peck += 1;
             let before = self.at;
             let found = self.level(cl_line, depth, "the hole")?;
             let course = if hole.kind == CycleKind::Tap { Course::Thread } else { Course::Feed };
@@ -207,7 +208,7 @@ impl<C: Steps> Verifier<'_, C> {
         }
         if let Some(reached) = reached.filter(|reached| in_cycle && self.pecks_on(*reached, line)) {
             // The rounding of the words leaves a last digit for one peck more.
-            self.between_pecks(cl_line, hole, levels, reached)?;
+            self.between_pecks(cl_line, hole, levels, (peck, reached))?;
             self.level(cl_line, levels.bottom, "the hole")?;
         }
         self.bottom_dwell(cl_line, hole)?;
@@ -370,10 +371,16 @@ impl<C: Steps> Verifier<'_, C> {
         cl_line: u32,
         hole: &Hole,
         levels: Levels,
-        reached: f64,
+        (peck, reached): (u32, f64),
     ) -> Result<(), (u32, String)> {
         let in_cycle = self.next_move().is_some_and(|next| next.in_cycle);
-        let kind = if in_cycle { self.settings.kind_in_cycle(hole.kind) } else { hole.kind };
+        let counts = !in_cycle || self.settings.cycles_count_breaks();
+        let leaves = hole.out_each.is_some_and(|each| counts && peck.is_multiple_of(each));
+        let kind = match hole.kind {
+            _ if leaves => CycleKind::Deep,
+            kind if in_cycle => self.settings.kind_in_cycle(kind),
+            kind => kind,
+        };
         if kind == CycleKind::Deep {
             let up = self.level(cl_line, levels.clear, "the retract between pecks")?;
             if up.course != Course::Rapid {
@@ -388,7 +395,10 @@ impl<C: Steps> Verifier<'_, C> {
         let gap = back.to.linear[2] - reached;
         // How far a control comes back by itself is a parameter of it, or a word of its cycle.
         let said = match back.in_cycle {
-            true => self.settings.cycle_peck_gap(kind, levels.clear - levels.at[2]),
+            true => {
+                let out = kind == CycleKind::Deep;
+                self.settings.cycle_peck_gap(hole.kind, out, levels.clear - levels.at[2])
+            }
             false => Some(self.settings.peck_gap()),
         };
         let peck_gap = said.unwrap_or(self.settings.peck_gap());

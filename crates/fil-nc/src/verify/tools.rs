@@ -11,8 +11,12 @@ impl<C: Steps> Verifier<'_, C> {
     /// A change to a tool. False where it is in the spindle already, and stays.
     pub(super) fn tool(&mut self, cl_line: u32, number: u32, offset: u32, by_hand: bool) -> bool {
         self.memory.initial = None;
+        let same = self.keeps_tool(number, offset);
+        let is_tip = same && self.expected.loaded_offset() != Some(offset);
         // A text may have changed the tool.
         match self.settings.names_machine_positions() {
+            // The moves behind it count with the other offset, where they lead nowhere too.
+            _ if is_tip => {}
             // A change by hand is no event: moves before it and after it look the same.
             _ if by_hand => self.pass_own(),
             true => self.pass_still(cl_line),
@@ -20,7 +24,6 @@ impl<C: Steps> Verifier<'_, C> {
                 self.pass(cl_line);
             }
         }
-        let same = self.keeps_tool(number, offset);
         self.change(cl_line, (number, offset), by_hand, same);
         !same
     }
@@ -50,16 +53,9 @@ impl<C: Steps> Verifier<'_, C> {
         if self.leaves_operation_out(cl_line, number) {
             return;
         }
-        self.await_blocks_before_change();
-        let is_first = self.blocks.changes == 0;
-        self.blocks.changes += 1;
-        if self.settings.switches_off_at_change() {
-            self.take_blocks(&self.settings.blocks_of_switching_off());
-        }
-        self.go_to_change_position(cl_line);
-        self.take_awaited_blocks();
-        if !is_first && !by_hand {
-            self.ask_auxiliary(cl_line, self.settings.stop_at_change());
+        let is_tip = self.takes_another_tip(number, offset);
+        if !is_tip {
+            self.go_to_change(cl_line, by_hand);
         }
         let is_of_later = self.is_of_a_later_change(number);
         match self.units_to_tool_change().filter(|units| *units == 0 || !is_of_later) {
@@ -100,6 +96,9 @@ impl<C: Steps> Verifier<'_, C> {
         }
         self.expected.change_tool(number, offset, self.settings);
         self.expected.take_first_offset(self.settings);
+        if is_tip {
+            return;
+        }
         if by_hand || self.settings.switches_off_at_change() {
             self.expected.resume_coolant(self.settings);
         }
@@ -107,11 +106,38 @@ impl<C: Steps> Verifier<'_, C> {
         self.take_blocks_after_change();
     }
 
-    /// The tool is in the spindle already, and the program leaves its change out.
+    /// The way to the tool change, with what is switched and said before it.
+    fn go_to_change(&mut self, cl_line: u32, by_hand: bool) {
+        self.await_blocks_before_change();
+        let is_first = self.blocks.changes == 0;
+        self.blocks.changes += 1;
+        if self.settings.switches_off_at_change() {
+            self.take_blocks(&self.settings.blocks_of_switching_off());
+        }
+        self.go_to_change_position(cl_line);
+        self.take_awaited_blocks();
+        if !is_first && !by_hand {
+            self.ask_auxiliary(cl_line, self.settings.stop_at_change());
+        }
+    }
+
+    /// The tool is in the spindle already, and the program leaves its change out: where another of
+    /// its tips comes, the program calls that one's offset alone.
     pub(super) fn keeps_tool(&self, number: u32, offset: u32) -> bool {
+        let is_modal = self.settings.tool_is_modal();
         self.expected.tool() == Some(number)
-            && self.expected.loaded_offset() == Some(offset)
-            && (self.settings.tool_is_modal() || self.next_tool() != Some(number))
+            && match self.expected.loaded_offset() {
+                Some(before) if before == offset && is_modal => true,
+                Some(_) => self.next_tool() != Some(number),
+                None => false,
+            }
+    }
+
+    /// The word that calls the tool in the spindle again calls another offset of it.
+    fn takes_another_tip(&self, number: u32, offset: u32) -> bool {
+        self.settings.calls_tools_with_offset()
+            && self.expected.tool() == Some(number)
+            && self.expected.loaded_offset().is_some_and(|before| before != offset)
     }
 
     /// Before the operator changes a tool: coolant and spindle off, the way to the change position, and

@@ -18,10 +18,15 @@ pub struct Capabilities {
     pub length_functions: bool,
     /// D chooses a cutting edge with its length and radius.
     pub cutting_edges: bool,
+    /// The codes of cutter compensation stand in lines that move: what ends it comes with the next
+    /// line, whoever makes that.
+    pub compensation_in_moves: bool,
     /// A statement calls a cycle at each position (MCALL), and another ends it.
     pub cycle_calls: bool,
     /// Each cycle says the level to which it returns.
     pub cycles_say_return: bool,
+    /// The cycle that breaks chips says after how many pecks the tool leaves the hole.
+    pub cycles_count_breaks: bool,
     /// Statements, and not functions, choose spindles and the modes of a mill-turn machine.
     pub mode_statements: bool,
     /// G96 (constant surface speed) and G97 (rpm) set the feed mode too.

@@ -24,8 +24,10 @@ const NOTHING: Capabilities = Capabilities {
     lengths_by_plane: false,
     length_functions: false,
     cutting_edges: false,
+    compensation_in_moves: false,
     cycle_calls: false,
     cycles_say_return: false,
+    cycles_count_breaks: false,
     mode_statements: false,
     speed_modes_say_feed: false,
     diameter_statement: false,
@@ -55,7 +57,9 @@ static WORD_ADDRESS: Row = Row {
 static KLARTEXT: Row = Row {
     can: Capabilities {
         numbers_lines: true,
+        compensation_in_moves: true,
         cycles_say_return: true,
+        cycles_count_breaks: true,
         retract_function: true,
         machine_frame: "M91",
         way_up: "L Z+0 R0 FMAX M91",

@@ -2,6 +2,7 @@
 //! implements in its folder, and a plain table of what the families have (`families`).
 
 use fil_diag::Result;
+use fil_machine::functions::WorkPlane;
 use fil_machine::locations::ThreadCycle;
 use fil_machine::modes::Plane;
 use fil_machine::{FunctionCode, Letter};
@@ -9,7 +10,7 @@ use nalgebra::Rotation3;
 
 use super::capabilities::Capabilities;
 use super::word_address::{arc, motion as words};
-use super::{Control, departure, full_turn, straight_rapid, vectors};
+use super::{Control, Function, departure, full_turn, straight_rapid, vectors};
 use crate::cause::Cause;
 use crate::control_state::{ForeignBlock, modal};
 use crate::errors::PostCode;
@@ -218,6 +219,15 @@ pub trait Family: std::fmt::Debug + Sync {
     /// A tool or offset that does not fit, an offset the machine can't call.
     fn change_tool(&self, control: &mut Control, change: ToolChange) -> Result<()>;
 
+    /// Takes another offset for the tool in the spindle; by calling the tool again where offsets are
+    /// those of tools.
+    ///
+    /// # Errors
+    /// As [`Family::change_tool`].
+    fn change_offset(&self, control: &mut Control, change: ToolChange) -> Result<()> {
+        self.change_tool(control, change)
+    }
+
     /// Writes the block under construction, whose words say a position of the machine, as a rapid
     /// motion to it.
     ///
@@ -329,12 +339,12 @@ pub trait Family: std::fmt::Debug + Sync {
         Ok(())
     }
 
-    /// Refuses what waits for a motion and can't be written without one.
+    /// Writes the end of cutter compensation, which waits for a motion, without one.
     ///
     /// # Errors
-    /// It waits.
-    fn refuse_unbegun(&self, _control: &Control) -> Result<()> {
-        Ok(())
+    /// As [`Control::write_block`].
+    fn end_compensation(&self, control: &mut Control) -> Result<()> {
+        control.flush_function(Function::Compensation)
     }
 
     /// Writes the highest speed of the spindle by a statement; false where a code says it.
@@ -435,7 +445,7 @@ pub fn begin_frame(
     higher: [bool; 2],
 ) -> Result<Rotation3<f64>> {
     let turn = control.family().begin_frame(control, turn, higher)?;
-    control.state.set(modal::WORK_PLANE, true);
+    control.state.set(modal::WORK_PLANE, WorkPlane::Tilted);
     Ok(turn)
 }
 

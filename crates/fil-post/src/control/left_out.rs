@@ -318,7 +318,7 @@ impl Control {
         let is_frame = edit.had(|code| self.is_other_frame(code)) && !moves_to_machine;
         let takes_length =
             letter == T && self.codes.tool_word_has_offset && value.rem_euclid(100.0) == 0.0;
-        had(Meaning::WorkPlane)
+        edit.had(|code| matches!(self.meaning(code), Meaning::WorkPlane(_)))
             || is_frame
             || takes_length
             || letter == S && self.is_fixed_beside_m(letter, edit)

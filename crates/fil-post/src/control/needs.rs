@@ -6,7 +6,7 @@
 
 use fil_diag::Result;
 
-use super::{Control, Function};
+use super::Control;
 use crate::control_state::Compensation;
 use crate::control_state::modal::{self, Know};
 use crate::errors::PostCode;
@@ -17,7 +17,10 @@ use crate::operation::Feed;
 pub enum Subject {
     /// Cutter compensation is off, and CUTCOM asks for none (G40).
     CompensationAsked,
-    /// Cutter compensation is off on the control; CUTCOM may wait for its motion.
+    /// The same, or it ends in the line of the operation itself, which moves.
+    CompensationBehind,
+    /// Cutter compensation is off on the control, or ends in the next line that moves; CUTCOM may
+    /// wait for its motion.
     Compensation,
     /// The same whether or not the blocks of block delete are run.
     CompensationEitherWay,
@@ -115,6 +118,7 @@ pub enum Act {
 }
 
 const NOT_COMPENSATED: Need = Need(Subject::CompensationAsked, PostCode::CompensationOn);
+const ENDS_COMPENSATION: Need = Need(Subject::CompensationBehind, PostCode::CompensationOn);
 const NOT_SKIPPED: Need = Need(Subject::BlockDelete, PostCode::SkippedPart);
 const NO_CYCLE: Need = Need(Subject::Cycle, PostCode::InCycle);
 const NO_ARC: Need = Need(Subject::ArcEnd, PostCode::ArcEnd);
@@ -169,7 +173,7 @@ impl Act {
             Act::OtherPoints => &[NO_ARC, NO_POINTS],
             Act::Motion => &[Need(Subject::Tool, PostCode::SkippedPart)],
             Act::Arc => &[Need(Subject::Thread, PostCode::Thread), NO_CYCLE],
-            Act::Hole => &[Need(Subject::CompensationAsked, PostCode::InCycle)],
+            Act::Hole => &[Need(Subject::CompensationBehind, PostCode::InCycle)],
             Act::Thread => &[NO_CYCLE, Need(Subject::CompensationAsked, PostCode::Thread)],
             Act::Compensation => &[NO_CYCLE],
             Act::ToolChange => &[Need(Subject::Compensation, PostCode::CompensationOn)],
@@ -179,11 +183,10 @@ impl Act {
             | Act::WorkOffset
             | Act::Transformation
             | Act::Scale
-            | Act::MachinePosition
-            | Act::RotaryMove
-            | Act::Table
-            | Act::Reposition
             | Act::TcpOn => &[NOT_COMPENSATED],
+            Act::MachinePosition | Act::RotaryMove | Act::Table | Act::Reposition => {
+                &[ENDS_COMPENSATION]
+            }
             Act::OriginShift | Act::MillTurnMotion | Act::WorkPlaneOff | Act::MasterSpindle => {
                 &[NOT_SKIPPED]
             }
@@ -194,10 +197,9 @@ impl Act {
             | Act::CylinderOn
             | Act::CylinderOff
             | Act::WorkPlaneOn => &[NOT_COMPENSATED, NOT_SKIPPED],
-            Act::ProgramEnd => &[
-                Need(Subject::Compensation, PostCode::CompensationOn),
-                Need(Subject::CompensationEitherWay, PostCode::CompensationOn),
-            ],
+            Act::ProgramEnd => {
+                &[NOT_COMPENSATED, Need(Subject::CompensationEitherWay, PostCode::CompensationOn)]
+            }
         }
     }
 
@@ -215,7 +217,7 @@ impl Act {
             Act::Compensation => "at CUTCOM",
             Act::Plane => "at a change of the plane",
             Act::ToolChange => "at a tool change",
-            Act::ToolCall => "at TOOL CALL, which a change of the spindle speed needs",
+            Act::ToolCall => "at TOOL CALL",
             Act::WorkOffset => "at a change of the work offset",
             Act::OriginShift => {
                 "at a shift of the control's origin, from which later motions count"
@@ -246,7 +248,9 @@ impl Subject {
     /// What is wrong, in words.
     const fn wrong(self) -> &'static str {
         match self {
-            Subject::CompensationAsked | Subject::Compensation => "cutter compensation is on",
+            Subject::CompensationAsked | Subject::CompensationBehind | Subject::Compensation => {
+                "cutter compensation is on"
+            }
             Subject::CompensationEitherWay => {
                 "cutter compensation is on with the blocks of OPSKIP or without them"
             }
@@ -296,7 +300,9 @@ impl Control {
     /// As [`Control::require`].
     #[inline]
     pub fn ready_for(&mut self, act: Act) -> Result<()> {
-        self.end_compensation()?;
+        if self.require(act).is_err() {
+            self.end_compensation()?;
+        }
         self.require(act)
     }
 
@@ -307,10 +313,10 @@ impl Control {
     /// As [`Control::write_block`].
     #[inline]
     pub fn end_compensation(&mut self) -> Result<()> {
-        if self.state.compensates() && self.compensation_asked() == Compensation::Off {
-            self.flush_function(Function::Compensation)?;
+        match self.state.compensates() && self.compensation_asked() == Compensation::Off {
+            true => self.family().end_compensation(self),
+            false => Ok(()),
         }
-        Ok(())
     }
 
     /// The same, where CYCLE or THREAD of the CL file matter.
@@ -333,7 +339,8 @@ impl Control {
     fn has(&self, subject: Subject, part: Part) -> bool {
         match subject {
             Subject::CompensationAsked => !self.is_compensated(),
-            Subject::Compensation => !self.state.compensates(),
+            Subject::CompensationBehind => !self.is_compensated() || self.compensation_ends(),
+            Subject::Compensation => !self.state.compensates() || self.compensation_ends(),
             Subject::CompensationEitherWay => self.is_uncompensated_either_way(),
             Subject::Cycle => !part.in_cycle,
             Subject::Thread => !part.in_thread,
@@ -391,7 +398,9 @@ mod tests {
         let (mut control, mut part) = (ready(), Part::default());
         let state = &mut control.state;
         match subject {
-            Subject::CompensationAsked => control.asked = Compensation::Left,
+            Subject::CompensationAsked | Subject::CompensationBehind => {
+                control.asked = Compensation::Left;
+            }
             Subject::Compensation => state.set(modal::CUTTER_COMP, Compensation::Left),
             Subject::CompensationEitherWay => {
                 let (run, skipped) = (Compensation::Left, Compensation::Off);
@@ -428,8 +437,9 @@ mod tests {
         state
     }
 
-    const SUBJECTS: [Subject; 11] = [
+    const SUBJECTS: [Subject; 12] = [
         Subject::CompensationAsked,
+        Subject::CompensationBehind,
         Subject::Compensation,
         Subject::CompensationEitherWay,
         Subject::Cycle,
@@ -451,7 +461,9 @@ mod tests {
 
     /// Compensation on the control is compensation that was asked for, too.
     fn implies(wrong: Subject, subject: Subject) -> bool {
-        wrong == subject || wrong == Subject::Compensation && subject == Subject::CompensationAsked
+        let asked = [Subject::CompensationAsked, Subject::CompensationBehind];
+        let is_asked = asked.contains(&wrong) || wrong == Subject::Compensation;
+        wrong == subject || is_asked && asked.contains(&subject)
     }
 
     #[test]

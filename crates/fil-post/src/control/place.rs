@@ -4,6 +4,7 @@ use fil_diag::{Diag, Result};
 use fil_machine::Letter;
 use fil_machine::axes::AxisSet;
 use fil_machine::commons::{EMPTY, Kind, LAST_OUTPUT};
+use fil_machine::functions::WorkPlane;
 use fil_machine::locations::{self as loc, RapidSplit};
 
 use super::Control;
@@ -38,7 +39,7 @@ impl Control {
 
     /// X, Y and Z may count in a tilted frame: one is in force, or nobody knows.
     pub fn may_be_tilted(&self) -> bool {
-        self.tables.frame_output && !self.state.is(modal::WORK_PLANE, false)
+        self.tables.frame_output && !self.state.is(modal::WORK_PLANE, WorkPlane::Off)
     }
 
     /// Where an axis stands, values of the tape.

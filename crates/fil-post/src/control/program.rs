@@ -183,7 +183,7 @@ pub fn end_by(control: &mut Control, code: FunctionCode) -> Result<()> {
 }
 
 fn end_code(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
-    control.require(Act::ProgramEnd)?;
+    control.ready_for(Act::ProgramEnd)?;
     if let Some(code) = code {
         control.m(code);
     }

@@ -21,11 +21,7 @@ impl Control {
         self.begin()?;
         self.family().skip(self, on)?;
         self.flush_waiting()?;
-        if self.waiting.length_offset.is_some() {
-            return PostCode::SkippedPart.err(
-                "the tool length offset of the last tool change would be on the other side of OPSKIP",
-            );
-        }
+        self.length_waits_across(on)?;
         if on {
             self.tape.skip = Some(self.block.cause);
             self.state.skip_begins(&self.commons);

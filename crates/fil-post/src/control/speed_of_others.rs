@@ -1,9 +1,9 @@
 //! The speed of the spindle by words of others: INSERT, POSTN and texts of the machine. What
 //! counts on the speed of the last SPINDL behind them would count on a wrong one.
 
-use fil_machine::Letter;
-use fil_machine::letters::S;
+use fil_machine::letters::{M, S};
 use fil_machine::locations as loc;
+use fil_machine::{FunctionCode, Letter};
 
 use super::Control;
 use crate::control_state::{Meaning, Source, functions, modal};
@@ -13,12 +13,20 @@ use crate::operation::SpindleSpeed;
 /// nothing else stands in it.
 pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], is_certain: bool) {
     let is_certain = is_certain && !control.state.may_be_skipped();
+    let said = words.iter().rev().find(|(letter, _)| *letter == S).map(|(_, value)| *value);
+    let mode = control.code_if_any(loc::CYCLE_RIGID_TAP_MODE);
+    let is_mode = |(letter, value): &(Letter, f64)| {
+        *letter == M && mode.is_some() && FunctionCode::of_value(*value) == mode
+    };
+    if words.iter().any(is_mode) {
+        control.spindle.in_step =
+            said.filter(|_| is_certain).map(|speed| (control.tape.count, speed));
+    }
     let codes = || functions(words);
     let named = |at| {
         let code = control.code_if_any(at);
         code.is_some_and(|code| codes().any(|said| said == code))
     };
-    let said = words.iter().rev().find(|(letter, _)| *letter == S).map(|(_, value)| *value);
     if named(loc::SPINDLE_MAX_CODE) {
         control.state.set_if_known(
             modal::SPEED_LIMIT,

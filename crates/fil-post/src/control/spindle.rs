@@ -21,6 +21,9 @@ pub struct SpindleAsked {
     pub is_side: bool,
     /// The spindle that is not the master may turn still.
     pub other_turns: bool,
+    /// The number of the author's block that has put the control in step with the spindle for a
+    /// rigid tap (M29 S), and its speed.
+    pub in_step: Option<(u64, f64)>,
     /// Highest speed of the spindle that is not the master, rev/min.
     pub limit_of_other: Option<f64>,
 }

@@ -9,7 +9,7 @@ use fil_machine::locations::Placement;
 use super::Control;
 use crate::block::Block;
 use crate::cause::Cause;
-use crate::control_state::{Length, modal};
+use crate::control_state::{Compensation, Length, modal};
 use crate::errors::PostCode;
 use crate::operation::SpindleTurn;
 
@@ -57,6 +57,8 @@ pub struct Waiting {
     words: Vec<(Function, Due, Block)>,
     /// Tool length offset to be called with the next Z motion, with its cause.
     pub length_offset: Option<(i64, Cause)>,
+    /// It waits since before the blocks of block delete that are open.
+    length_is_outside: bool,
     /// A constant surface speed that begins with the first cut.
     pub surface_speed: Option<SurfaceSpeed>,
     /// How often words or texts had named a length when it began to wait.
@@ -88,11 +90,49 @@ impl Waiting {
     }
 }
 
+fn refuse_length_across<T>() -> Result<T> {
+    PostCode::SkippedPart
+        .err("the tool length offset of the last tool change would be on the other side of OPSKIP")
+}
+
 impl Control {
+    /// Cutter compensation ends in the next line that moves.
+    pub fn compensation_ends(&self) -> bool {
+        self.can().compensation_in_moves
+            && self.compensation_asked() == Compensation::Off
+            && self.waiting.has(Function::Compensation)
+    }
+
     /// Has a tool length offset called with the next Z motion.
     pub(crate) fn await_length(&mut self, offset: Option<(i64, Cause)>) {
         self.waiting.length_offset = offset;
+        self.waiting.length_is_outside = false;
         self.waiting.lengths_said = self.state.groups().written(modal::LENGTH_WORD);
+    }
+
+    /// Takes the tool length offset that waits, for the block under construction.
+    ///
+    /// # Errors
+    /// Block delete would leave it out.
+    pub(crate) fn take_length(&mut self) -> Result<Option<(i64, Cause)>> {
+        let length = self.waiting.length_offset.take();
+        match length.is_some() && self.waiting.length_is_outside {
+            true => refuse_length_across(),
+            false => Ok(length),
+        }
+    }
+
+    /// Blocks of block delete begin or end: a length that waits since before them waits on.
+    ///
+    /// # Errors
+    /// One of a tool change among them waits at their end.
+    pub(super) fn length_waits_across(&mut self, begin: bool) -> Result<()> {
+        let waits = self.waiting.length_offset.is_some();
+        if !begin && waits && !self.waiting.length_is_outside {
+            return refuse_length_across();
+        }
+        self.waiting.length_is_outside = begin && waits;
+        Ok(())
     }
 
     /// Refuses words of others that move Z while the length of the tool waits for a motion of the
@@ -199,14 +239,23 @@ impl Control {
         self.waiting.words.push((function, Due::Any, block));
     }
 
-    /// Writes the words that still wait for a motion, each in a block of its own.
+    /// Writes the words that still wait for a motion, each in a block of its own. The end of
+    /// cutter compensation waits on where it stands in lines that move.
     ///
     /// # Errors
-    /// As [`Control::write_block`].
+    /// As [`Control::write_block`]; cutter compensation that only a move can begin.
     pub fn flush_waiting(&mut self) -> Result<()> {
-        self.family().refuse_unbegun(self)?;
+        let in_moves = self.can().compensation_in_moves;
+        if in_moves && self.waiting.has(Function::Compensation) && !self.compensation_ends() {
+            return PostCode::Family
+                .err("CUTCOM without a move after it: RL and RR are output in the line of a move");
+        }
         let cause = self.block.cause;
-        for (_, _, words) in std::mem::take(&mut self.waiting.words) {
+        for (function, due, words) in std::mem::take(&mut self.waiting.words) {
+            if in_moves && function == Function::Compensation {
+                self.waiting.words.push((function, due, words));
+                continue;
+            }
             self.block = words;
             self.write_block()?;
         }

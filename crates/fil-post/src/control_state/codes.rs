@@ -4,7 +4,7 @@
 use fil_machine::effects::Effect;
 use fil_machine::functions::{
     self, AxisClamp, Call, Dialect, FUNCTIONS, Function, Group, LengthOffset, Meaning, Origin,
-    Space, Spindle,
+    Space, Spindle, WorkPlane,
 };
 use fil_machine::locations::{self as loc, ControlFamily, RotaryTipOutput, ToolFormat};
 use fil_machine::modes::FeedMode;
@@ -274,7 +274,7 @@ impl Codes {
         let moves = |code| match self.meaning(code) {
             Meaning::LengthOffset(_)
             | Meaning::Tcpc
-            | Meaning::WorkPlane
+            | Meaning::WorkPlane(_)
             | Meaning::Dwell
             | Meaning::Unknown => false,
             Meaning::Origin(origin) => origin.is_offset(),
@@ -289,6 +289,24 @@ impl Codes {
         let has = |letters: &[u8]| words.iter().any(|(letter, _)| letters.contains(&letter.byte()));
         let is_limit = |code| self.meaning(code) == Meaning::SpeedLimit;
         has(b"XZUW") && functions(words).any(is_limit)
+    }
+
+    /// How a G code turns the coordinates against those before it, of which `before` is known;
+    /// `None` for one that does not turn any. `word` gives the value of a word of its block: with
+    /// the parts of an axis (I, J, K) a rotation is one in space.
+    pub fn turned(
+        &self,
+        code: FunctionCode,
+        before: Option<WorkPlane>,
+        word: impl Fn(Letter) -> Option<f64>,
+    ) -> Option<WorkPlane> {
+        let Meaning::WorkPlane(to) = self.meaning(code) else { return None };
+        let is_in_space = || letters::IJK.into_iter().any(|letter| word(letter).is_some());
+        Some(match (to, before) {
+            (WorkPlane::Off, Some(before)) => before,
+            (WorkPlane::Rotated, Some(WorkPlane::Off | WorkPlane::Rotated)) if !is_in_space() => to,
+            _ => WorkPlane::Tilted,
+        })
     }
 
     /// True when a motion code ends a cycle that no code ends.

@@ -1,7 +1,7 @@
 //! What the control learns from the functions and words of a block.
 
 use fil_machine::address::Addresses;
-use fil_machine::functions::SpeedMode;
+use fil_machine::functions::{SpeedMode, WorkPlane};
 use fil_machine::{FunctionCode, Letter, letters};
 
 use super::modal::{
@@ -136,8 +136,11 @@ impl ControlState {
                     self.forget(WORK_OFFSET, source);
                 }
             }
-            Meaning::WorkPlane => {
-                self.forget(WORK_PLANE, source);
+            Meaning::WorkPlane(to) => {
+                match codes.turned(code, self.get(WORK_PLANE), word) {
+                    None | Some(WorkPlane::Tilted) => self.forget(WORK_PLANE, source),
+                    Some(_) => self.set(WORK_PLANE, to),
+                }
                 self.doubt_axes();
             }
             Meaning::Unknown => self.doubt_all(source),

@@ -299,8 +299,8 @@ impl ControlState {
 
     /// Another frame turns the axes: where they stand in it is not known, but for those that
     /// are clear of the part.
-    pub(super) fn turn_axes(&mut self) {
-        for letter in AXIS_LETTERS {
+    pub(super) fn turn_axes(&mut self, letters: impl IntoIterator<Item = Letter>) {
+        for letter in letters {
             if self.doubts.is_clear(letter) {
                 self.doubts.clears(letter, None);
             } else {

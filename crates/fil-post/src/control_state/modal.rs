@@ -7,6 +7,7 @@ mod usual;
 use std::marker::PhantomData;
 
 use fil_machine::FunctionCode;
+use fil_machine::functions::WorkPlane;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 
 use super::{Compensation, CutterPath, Distance, Length, Rotation, WorkOffset};
@@ -131,6 +132,7 @@ choices! {
     Distance: Absolute Incremental;
     Unit: Mm Inch;
     FeedMode: PerMinute PerRevolution InverseTime;
+    WorkPlane: Off Rotated Tilted;
     Compensation: Off Left Right;
     CutterPath: Unmoved Moved Leaving;
     Rotation: Unsaid Clockwise Counterclockwise InDoubt Standing;
@@ -212,8 +214,8 @@ groups! {
     FEED_MODE / FeedMode: FeedMode = None, Unknown;
     /// Tool center point control (G43.4, TRAORI, M128).
     TCP / Tcp: bool = Some(false), Unknown;
-    /// X, Y and Z count in a tilted work plane.
-    WORK_PLANE / WorkPlane: bool = Some(false), Unknown;
+    /// X, Y and Z count in a tilted work plane, or turned in their plane.
+    WORK_PLANE / WorkPlane: WorkPlane = Some(WorkPlane::Off), Unknown;
     /// Cutter compensation (G40, G41, G42).
     CUTTER_COMP / CutterComp: Compensation = Some(Compensation::Off), Unknown;
     /// Whether a motion has begun or ended it.

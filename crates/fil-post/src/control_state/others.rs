@@ -1,18 +1,16 @@
 //! What the control knows behind words and texts that the post has not made: POSTN, PREFUN
 //! and AUXFUN, INSERT, the machine's own texts.
 
-use fil_machine::functions::Origin;
+use fil_machine::functions::{Origin, WorkPlane};
 use fil_machine::modes::Unit;
 use fil_machine::{FunctionCode, Letter, letters};
 
 use super::foreign::{ForeignBlock, TextFrame};
 use super::modal::{
-    CYCLE, DISTANCE, LENGTH, LENGTH_OFFSET, MOTION, NAMED_TOOL, SPINDLE, TOOL, TOOL_CHANGED,
+    CYCLE, DISTANCE, LENGTH, LENGTH_OFFSET, MOTION, NAMED_TOOL, PLANE, SPINDLE, TOOL, TOOL_CHANGED,
     TOOL_WORD, UNITS, WORK_OFFSET, WORK_PLANE,
 };
-use super::{
-    AXIS_LETTERS, Codes, ControlState, Distance, Length, Meaning, Rotation, Source, WorkOffset,
-};
+use super::{AXIS_LETTERS, Codes, ControlState, Distance, Length, Meaning, Rotation, Source};
 
 /// What preparatory functions of others do to where the axes stand.
 #[derive(Clone, Copy, Debug, Default)]
@@ -22,7 +20,7 @@ struct Ways {
     /// They go to a reference point, without words all of them, such as G28.
     home: bool,
     /// The zero is another one.
-    shifts: bool,
+    zero: Zero,
     /// The words of the block say it, such as those of G92.
     says_zero: bool,
     /// The length of the tool is another one.
@@ -31,16 +29,29 @@ struct Ways {
     astray: bool,
     /// They come back from it to where they began, as from a turning cycle.
     returns: bool,
-    /// The frame may be turned.
-    turns: bool,
+    /// How the coordinates may have been turned, against those before.
+    turns: WorkPlane,
     /// The words of the block are no positions, such as those of G4 and of G71 of an OSP.
     pauses: bool,
     /// The tool is changed.
     changes: bool,
 }
 
+/// Which axes count from another zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+enum Zero {
+    /// None.
+    #[default]
+    Kept,
+    /// Those that the block names, all where it names none: G92 X0.
+    OfWords,
+    /// All: G55.
+    Other,
+}
+
 impl Ways {
-    fn of(words: &[(Letter, f64)], codes: &Codes, in_force: Option<WorkOffset>) -> Self {
+    fn of(words: &[(Letter, f64)], codes: &Codes, state: &ControlState) -> Self {
+        let (in_force, plane) = (state.get(WORK_OFFSET), state.get(WORK_PLANE));
         let mut ways = Ways::default();
         for (letter, value) in words {
             match (*letter, FunctionCode::of_value(*value)) {
@@ -48,6 +59,7 @@ impl Ways {
                     let offset = codes.work_offset(code, |letter| word(words, letter));
                     if offset.is_none() || offset != in_force {
                         ways.add(code, codes);
+                        ways.add_turn(codes.turned(code, plane, |letter| word(words, letter)));
                     }
                 }
                 (letters::M, Some(code)) => ways.changes |= codes.does(code, Meaning::ToolChange),
@@ -56,7 +68,7 @@ impl Ways {
             }
         }
         if codes.places_zero(words) {
-            (ways.shifts, ways.says_zero) = (true, true);
+            (ways.zero, ways.says_zero) = (Zero::OfWords, true);
         }
         ways
     }
@@ -66,14 +78,23 @@ impl Ways {
             Meaning::Origin(origin) => {
                 self.home |= origin == Origin::Home;
                 self.of_machine |= origin.is_of_machine();
-                self.shifts |= !self.of_machine;
+                if !self.of_machine {
+                    let zero = if origin.is_of_its_words() { Zero::OfWords } else { Zero::Other };
+                    self.zero = if zero > self.zero { zero } else { self.zero };
+                }
                 self.says_zero |= !self.of_machine && !origin.is_offset();
             }
             Meaning::LengthOffset(_) => self.length = true,
-            Meaning::WorkPlane | Meaning::Tcpc => self.turns = true,
+            Meaning::Tcpc => self.turns = WorkPlane::Tilted,
             Meaning::TurningCycle => (self.astray, self.returns) = (true, true),
             Meaning::Dwell | Meaning::ReturnLevel => self.pauses = true,
             _ => {}
+        }
+    }
+
+    fn add_turn(&mut self, turned: Option<WorkPlane>) {
+        if let Some(turned) = turned.filter(|turned| *turned != WorkPlane::Off) {
+            self.turns = turned;
         }
     }
 }
@@ -124,7 +145,7 @@ impl ControlState {
         codes: &Codes,
         by_letter: impl Fn(&mut Self, Letter),
     ) -> Ways {
-        let ways = Ways::of(words, codes, self.get(WORK_OFFSET));
+        let ways = Ways::of(words, codes, self);
         for (letter, value) in words {
             match (*letter, FunctionCode::of_value(*value)) {
                 (letters::G, Some(code)) => {
@@ -189,13 +210,13 @@ impl ControlState {
         match block.frame {
             TextFrame::Stays => {}
             TextFrame::OfTheMachine => ways.of_machine = true,
-            TextFrame::Shifted => (ways.shifts, ways.says_zero) = (true, true),
-            TextFrame::Turned => ways.turns = true,
+            TextFrame::Shifted => (ways.zero, ways.says_zero) = (Zero::Other, true),
+            TextFrame::Turned => ways.turns = WorkPlane::Tilted,
             TextFrame::Unread => ways.astray = true,
         }
         self.learn_ways(words, ways, codes);
-        let is_motion =
-            !(ways.of_machine || ways.says_zero || ways.turns || ways.astray || ways.pauses);
+        let turns = ways.turns != WorkPlane::Off;
+        let is_motion = !(ways.of_machine || ways.says_zero || turns || ways.astray || ways.pauses);
         let is_level_or_code =
             |(letter, _): &(Letter, f64)| matches!(*letter, letters::R | letters::G);
         // Behind a hole more the tool comes back to the level that it came from.
@@ -277,11 +298,21 @@ impl ControlState {
         } else if ways.astray {
             self.lose_axes();
             self.doubts.returned = ways.returns;
-        } else if ways.turns {
-            self.turn_axes();
+        } else if ways.turns == WorkPlane::Tilted {
+            self.turn_axes(AXIS_LETTERS);
             self.forget(WORK_PLANE, Source::Author);
-        } else if ways.shifts {
-            self.shift_axes(Source::Author);
+        } else if ways.turns == WorkPlane::Rotated {
+            let plane = self.get(PLANE).map(|plane| plane.axes().map(|axis| letters::XYZ[axis]));
+            let turned = plane.as_ref().map_or(&letters::XYZ[..], |axes| &axes[..]);
+            let is_turned =
+                |letter: &Letter| turned.contains(letter) || named().any(|named| named == *letter);
+            self.turn_axes(AXIS_LETTERS.into_iter().filter(is_turned));
+        } else if ways.zero != Zero::Kept {
+            let is_all = ways.zero == Zero::Other || named().next().is_none();
+            let has_another =
+                |letter: &Letter| is_all || named().any(|named| codes.moved_by(named) == *letter);
+            let axes = AXIS_LETTERS.into_iter().filter(has_another);
+            axes.for_each(|letter| self.shifts(letter, Source::Author));
         } else if ways.length {
             self.tool_length_changes();
         }

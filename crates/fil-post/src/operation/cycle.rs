@@ -57,6 +57,8 @@ pub struct Cycle {
     pub retract: Option<f64>,
     /// Peck.
     pub step: Option<f64>,
+    /// Of so many pecks that break chips the last one leaves the hole (TIMES).
+    pub out_each: Option<u32>,
     /// Dwell at the bottom, seconds.
     pub dwell: f64,
     /// Feed.
@@ -119,6 +121,11 @@ impl Hole {
 }
 
 impl Cycle {
+    /// The tool leaves the hole after its peck of this number, counted from 1.
+    pub fn leaves_after(&self, peck: u32) -> bool {
+        self.kind == CycleKind::Deep || self.out_each.is_some_and(|each| peck.is_multiple_of(each))
+    }
+
     /// The CYCLE record at one of its words.
     pub fn due_to(&self, word: u16) -> Cause {
         Cause { word, ..self.cause }

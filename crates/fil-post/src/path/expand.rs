@@ -177,18 +177,20 @@ impl Moves<'_> {
         }
     }
 
-    /// DEEP comes out to the R level after each peck, BRKCHP only lifts.
+    /// DEEP comes out to the R level after each peck, BRKCHP lifts, and comes out as TIMES says.
     fn pecks(&mut self, step: f64) -> Result<()> {
         let gap = self.control.commons.dbl_opt(loc::CYCLE_PECK_GAP).unwrap_or(0.0).max(0.0);
         let gap = if self.control.is_metric() { gap } else { gap / INCH };
         let Hole { bottom, clear, .. } = *self.hole;
         let (length, out) = ((clear - bottom).abs(), (clear - bottom).signum());
         let mut reached = 0.0;
+        let mut peck = 0;
         while reached + step < length - 1e-9 {
             reached += step;
+            peck += 1;
             let level = clear - reached * out;
             self.feed(level)?;
-            if self.cycle.kind == CycleKind::Deep {
+            if self.cycle.leaves_after(peck) {
                 self.rapid(clear)?;
             }
             self.rapid(clear - (reached - gap).max(0.0) * out)?;

@@ -10,6 +10,7 @@ use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::axis_chain::AxisChain;
 use fil_machine::commons::EMPTY;
+use fil_machine::functions::WorkPlane;
 use nalgebra::{Point3, Vector3};
 
 use super::height;
@@ -77,7 +78,8 @@ pub(super) fn along(post: &Post, axis: Vector3<f64>) -> Option<TiltedFrame> {
 
 /// The control is in a frame, and the machine stands as it wants it.
 pub(super) fn is_in_force(control: &Control, frame: &TiltedFrame) -> bool {
-    control.state.is(modal::WORK_PLANE, frame.turn.is_some()) && stands_at(control, frame.angles)
+    let turned = if frame.turn.is_some() { WorkPlane::Tilted } else { WorkPlane::Off };
+    control.state.is(modal::WORK_PLANE, turned) && stands_at(control, frame.angles)
 }
 
 /// The rotary axes need not turn.
@@ -106,7 +108,8 @@ fn stands_at(control: &Control, angles: [f64; 2]) -> bool {
 /// # Errors
 /// It does.
 pub(super) fn refuse_turned(control: &Control, stood: [Option<f64>; 2]) -> Result<()> {
-    let is_in_frame = control.tables.frame_output && control.state.is(modal::WORK_PLANE, true);
+    let is_in_frame =
+        control.tables.frame_output && control.state.is(modal::WORK_PLANE, WorkPlane::Tilted);
     let turned = |n: usize| control.stands(n + 3).is_some() && control.stands(n + 3) != stood[n];
     if is_in_frame && (0..2).any(turned) {
         return PostCode::Frame.err_with(
@@ -156,7 +159,7 @@ pub fn end(control: &mut Control) -> Result<()> {
     let known = knows_rotary(control);
     let slides = height::slides_in_frame(control);
     control.family().end_frame(control)?;
-    control.state.set(modal::WORK_PLANE, false);
+    control.state.set(modal::WORK_PLANE, WorkPlane::Off);
     if known {
         keep_rotary(control);
     }
@@ -180,11 +183,10 @@ pub(super) fn before(control: &mut Control, operation: &Operation) -> Result<()>
             end(control)
         }
         Operation::Function(letter, code)
-            if *letter == fil_machine::letters::G
-                && !control.state.is(modal::WORK_PLANE, false) =>
+            if *letter == fil_machine::letters::G && control.may_be_tilted() =>
         {
             match control.meaning(*code) {
-                Meaning::Origin(_) | Meaning::WorkPlane | Meaning::Tcpc | Meaning::Unit(_) => {
+                Meaning::Origin(_) | Meaning::WorkPlane(_) | Meaning::Tcpc | Meaning::Unit(_) => {
                     PostCode::Frame.err_with(
                         "PREFUN: the function would move the frame in force",
                         "Put it where the tool is along the machine's Z, or output axis positions with rotary.frame_output = 0.",

@@ -3,6 +3,7 @@
 
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
+use fil_machine::functions::WorkPlane;
 use nalgebra::Point3;
 
 use crate::control::Control;
@@ -14,7 +15,8 @@ use crate::errors::PostCode;
 /// Where X, Y and Z of the machine stand in the tilted frame in force; `None` where that is not
 /// known.
 pub(super) fn slides_in_frame(control: &Control) -> Option<Point3<f64>> {
-    let (turn, angles) = control.tip.frame.filter(|_| control.state.is(modal::WORK_PLANE, true))?;
+    let (turn, angles) =
+        control.tip.frame.filter(|_| control.state.is(modal::WORK_PLANE, WorkPlane::Tilted))?;
     if !rests(control, angles) {
         return None;
     }

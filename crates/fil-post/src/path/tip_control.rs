@@ -175,7 +175,7 @@ fn begin(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<()> 
     let known = vectors::stand_known(&post.control);
     let stands = post.path.rotary.filter(|_| known);
     let control = &mut post.control;
-    control.waiting.length_offset = None;
+    control.take_length()?;
     if in_doubt || length_is_called {
         family::end_tip_control(control)?;
     }

@@ -182,16 +182,18 @@ impl Moves<'_> {
         }
     }
 
-    /// DEEP comes out to the R level after each peck, BRKCHP only lifts.
+    /// DEEP comes out to the R level after each peck, BRKCHP lifts, and comes out as TIMES says.
     fn pecks(&mut self, step: f64) -> Result<()> {
         let mm = self.post.control.require_unit()?.in_mm();
         let gap = self.post.control.commons.dbl_opt(loc::CYCLE_PECK_GAP).unwrap_or(0.0).max(0.0);
         let (clear, length) = (self.cycle.clear, self.cycle.clear + self.cycle.depth);
         let mut reached = 0.0;
+        let mut peck = 0;
         while reached + step < length - SAME_HEIGHT {
             reached += step;
+            peck += 1;
             self.feed(clear - reached)?;
-            if self.cycle.kind == CycleKind::Deep {
+            if self.cycle.leaves_after(peck) {
                 self.rapid(clear)?;
             }
             self.rapid(clear - (reached - gap / mm).max(0.0))?;

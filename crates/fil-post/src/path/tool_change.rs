@@ -12,7 +12,7 @@ use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::machine_frame::{self, Before};
 use crate::control::user_texts;
-use crate::control::word_address::tool;
+use crate::control::word_address::tool::{self, Changes};
 use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::motion::Motion;
@@ -51,8 +51,10 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     let control = &mut post.control;
     control.family().take_own_offset(control, &mut wanted)?;
     refuse_change_by_switch(control, wanted.tool)?;
-    if !tool::prepare(control, &wanted)? {
-        return way_home::write_held(control);
+    match tool::prepare(control, &wanted)? {
+        Changes::Tool => {}
+        Changes::Offset => return change_offset(control, wanted),
+        Changes::Nothing => return way_home::write_held(control),
     }
     turned_apart::warn_of_length(control);
     leave_part(post)?;
@@ -84,6 +86,17 @@ pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
     user_texts::write(control, around[1])?;
     prepare_next(control, &wanted)?;
     control.because(cause, way_home::restate)
+}
+
+/// Takes another offset for the tool in the spindle, where it is.
+///
+/// # Errors
+/// As `change_offset` of the family.
+fn change_offset(control: &mut Control, wanted: ToolChange) -> Result<()> {
+    tip_control::end(control)?;
+    frame::end(control)?;
+    way_home::write_held(control)?;
+    control.family().change_offset(control, wanted)
 }
 
 /// Names the tool that comes next, behind the last change the first one where the machine wants it.

@@ -82,7 +82,7 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
     let depth = depth.ok_or_else(|| PostCode::CycleForm.diag("DEPTH is missing"))?.abs();
     let Levels { clear, travel } = clearance(post, items, &mut words.clear)?;
     let step = step(post, items, kind, &mut words.step)?;
-    say_how_chips_break(post, items, kind)?;
+    let out_each = how_chips_break(post, items, kind)?;
     let retract = return_level(items)?.or(travel);
     let all_rigid = post.control.commons.read(loc::CYCLE_TAP_RIGID);
     let rigid = kind == CycleKind::Tap && (items.flag(w::HIGH) || all_rigid);
@@ -108,7 +108,7 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         None => feed_of_fedrat(post, kind)?,
     };
     let usual_dwell = kind.dwell().and_then(|at| post.control.commons.dbl_opt(at));
-    Ok(Cycle {
+    let cycle = Cycle {
         kind,
         depth,
         plates,
@@ -116,6 +116,7 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         clear,
         retract,
         step,
+        out_each,
         dwell: dwell.or(usual_dwell).unwrap_or(0.0),
         feed,
         feed_of_fedrat: own_feed.is_none(),
@@ -127,7 +128,9 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         words,
         along: None,
         in_force: None,
-    })
+    };
+    warn_of_control_of_breaks(post, &cycle);
+    Ok(cycle)
 }
 
 /// The depth of THRU and the gaps between its plates: DEPTH,a,b,c leads through a plate that ends at
@@ -323,13 +326,16 @@ fn step(post: &mut Post, items: &mut Items, kind: CycleKind, at: &mut u16) -> Re
     Ok(step)
 }
 
-/// BACK, REV and TIMES of BRKCHP say how its chips are broken, which each control does in its own
-/// way.
-fn say_how_chips_break(post: &mut Post, items: &mut Items, kind: CycleKind) -> Result<()> {
+/// BACK and REV of BRKCHP say how its chips are broken, which each control does in its own way;
+/// TIMES after how many pecks the tool leaves the hole.
+///
+/// # Errors
+/// TIMES that is no number of pecks.
+fn how_chips_break(post: &mut Post, items: &mut Items, kind: CycleKind) -> Result<Option<u32>> {
     if kind != CycleKind::Brkchp {
-        return Ok(());
+        return Ok(None);
     }
-    for word in [w::BACK, w::REV, w::TIMES] {
+    for word in [w::BACK, w::REV] {
         let Some(value) = items.couplet(word)? else { continue };
         let gap = post.control.commons.dbl_opt(loc::CYCLE_PECK_GAP);
         if word == w::BACK && gap == Some(value) {
@@ -342,7 +348,32 @@ fn say_how_chips_break(post: &mut Post, items: &mut Items, kind: CycleKind) -> R
         );
         post.warn(PostCode::IgnoredPart, message);
     }
-    Ok(())
+    match items.couplet(w::TIMES)? {
+        // No peck leaves the hole.
+        None | Some(0.0) => Ok(None),
+        Some(each) if (1.0..=MOST_BREAKS).contains(&each) && each.fract() == 0.0 => {
+            Ok(Some(each as u32))
+        }
+        Some(each) => PostCode::CycleForm
+            .err(format!("CYCLE/BRKCHP: TIMES {each} is no whole number of pecks")),
+    }
+}
+
+/// Largest number of TIMES in BRKCHP.
+const MOST_BREAKS: f64 = 99999.0;
+
+/// Warns of TIMES in a cycle of the control that has no word for it.
+fn warn_of_control_of_breaks(post: &mut Post, cycle: &Cycle) {
+    let control = &post.control;
+    let is_left_out =
+        !control.can().cycles_count_breaks && control.family().cycle_code(control, cycle).is_some();
+    if let Some(each) = cycle.out_each.filter(|_| is_left_out) {
+        let message = format!(
+            "CYCLE/BRKCHP: TIMES {each}; the cycle of the control has no word for the pecks that \
+             leave the hole"
+        );
+        post.warn(PostCode::IgnoredPart, message);
+    }
 }
 
 /// The feed of a cycle holds on behind it where no FEDRAT came before: Creo writes none then, and

@@ -1,5 +1,6 @@
 //! The modes of the control in words, as a debugger shows them.
 
+use fil_machine::functions::WorkPlane;
 use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::setting::CodeAt;
@@ -21,7 +22,10 @@ pub(super) fn of(state: &ControlState, commons: &Commons) -> Vec<(&'static str, 
         ("feed", coded(state.get(modal::FEED_MODE).map(feed))),
         ("compensation", coded(state.get(modal::CUTTER_COMP).map(compensation))),
         ("TCPC", on_or_off(state.get(modal::TCP))),
-        ("tilted plane", on_or_off(state.get(modal::WORK_PLANE))),
+        (
+            "tilted plane",
+            on_or_off(state.get(modal::WORK_PLANE).map(|turned| turned == WorkPlane::Tilted)),
+        ),
         ("canned cycle", cycle(state)),
         ("tool", number(state.get(modal::TOOL))),
         ("tool offset", number(state.get(modal::TOOL_OFFSET))),

@@ -25,6 +25,12 @@ const CYCLES: [(WordId, CycleKind); 11] = [
     (w::MILL, CycleKind::Mill),
 ];
 
+/// TIMES of BRKCHP: after so many pecks the tool leaves the hole.
+fn out_each(record: &Record) -> Option<u32> {
+    let each = record.number_after(w::TIMES)?;
+    (each >= 1.0).then_some(each as u32)
+}
+
 impl State {
     /// The motions of a hole through several plates: at feed through each, at rapid over the gaps
     /// to CLEAR above the next one, and up.
@@ -111,6 +117,7 @@ impl State {
                 number(&[w::RETURN, w::RTRCTO]).or(travel)
             },
             step: number(&[w::STEP, w::SUBPECK, w::INCR]).filter(|_| kind.pecks()),
+            out_each: out_each(record).filter(|_| kind == CycleKind::Brkchp),
             dwell: record.number_after(w::DWELL),
             rate: rate.or(self.rate),
             turns: None,

@@ -43,6 +43,7 @@ struct Cycle {
     clear: Option<f64>,
     retract: Option<f64>,
     step: Option<f64>,
+    out_each: Option<u32>,
     dwell: Option<f64>,
     rate: Option<Rate>,
     /// Turns of the spindle at the first hole of a tap.

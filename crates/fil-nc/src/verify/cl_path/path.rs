@@ -131,6 +131,7 @@ impl State {
             clear: mm(cycle.clear),
             retract: mm(cycle.retract),
             step: mm(cycle.step),
+            out_each: cycle.out_each,
             dwell: cycle.dwell,
             rate: self.rate_of_hole(cycle),
             rigid: cycle.rigid,

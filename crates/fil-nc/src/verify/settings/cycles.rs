@@ -38,16 +38,19 @@ impl Settings<'_> {
         self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik
     }
 
+    /// The cycle that breaks chips says after how many pecks the tool leaves the hole.
+    pub fn cycles_count_breaks(&self) -> bool {
+        self.is_klartext()
+    }
+
     /// How far above the last peck a cycle of the control goes on, mm, where a word of the
-    /// cycle says it; `clear` is its set-up clearance.
-    pub fn cycle_peck_gap(&self, kind: CycleKind, clear: f64) -> Option<f64> {
+    /// cycle says it: `out` where it has left the hole; `clear` is its set-up clearance.
+    pub fn cycle_peck_gap(&self, kind: CycleKind, out: bool, clear: f64) -> Option<f64> {
         let gap = Some(self.peck_gap());
         match self.commons.read(loc::CONTROL_FAMILY) {
             ControlFamily::WordAddress => None,
             // Cycle 203 goes on at its set-up clearance above the last peck.
-            ControlFamily::Klartext
-                if kind == CycleKind::Deep && self.cycle_code(kind) == Some(203) =>
-            {
+            ControlFamily::Klartext if out && self.cycle_code(kind) == Some(203) => {
                 Some(clear).filter(|clear| *clear > 0.0)
             }
             ControlFamily::Klartext => gap,

@@ -232,7 +232,7 @@ impl Settings<'_> {
     }
 
     /// The control reads Klartext: rows of its table of presets are work offsets.
-    fn is_klartext(&self) -> bool {
+    pub(super) fn is_klartext(&self) -> bool {
         self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext
     }
 

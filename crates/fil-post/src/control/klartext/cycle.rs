@@ -206,7 +206,7 @@ fn definition(
     say(204, &at.second, "2ND SET-UP CLEARANCE");
     match number {
         203 => {
-            let breaks = if cycle.kind == CycleKind::Brkchp { breaks(&at, peck) } else { 0 };
+            let breaks = if cycle.kind == CycleKind::Brkchp { breaks(cycle, &at, peck) } else { 0 };
             say(212, "+0", "DECREMENT");
             say(213, &breaks.to_string(), "NR OF BREAKS");
             say(205, "+0", "MIN. PLUNGING DEPTH");
@@ -233,9 +233,11 @@ fn definition(
     Ok(lines)
 }
 
-/// Pecks of a hole but the last: as many times chips are broken.
-fn breaks(at: &Values, peck: f64) -> u32 {
-    (at.way / peck).ceil().clamp(1.0, 99999.0) as u32
+/// How many times chips are broken before the tool leaves the hole: at all pecks, or at those
+/// before each that TIMES counts.
+fn breaks(cycle: &Cycle, at: &Values, peck: f64) -> u32 {
+    let all = (at.way / peck).ceil().clamp(1.0, 99999.0) as u32;
+    cycle.out_each.map_or(all, |each| all.min(each - 1))
 }
 
 /// How far above the last depth a peck goes on, and by which it lifts to break chips.

@@ -186,7 +186,7 @@ impl Family for Klartext {
         skip::change(control, on)
     }
 
-    fn refuse_unbegun(&self, control: &Control) -> Result<()> {
-        motion::refuse_unbegun(control)
+    fn end_compensation(&self, control: &mut Control) -> Result<()> {
+        motion::end_compensation(control)
     }
 }

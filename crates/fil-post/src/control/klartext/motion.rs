@@ -63,6 +63,23 @@ pub fn to_machine_position(control: &mut Control) -> Result<()> {
     write_rapid(control)
 }
 
+/// Ends cutter compensation in a line at rapid to where Z stands; behind a feed the tool may be in
+/// the cut, out of which that line would lead it sideways.
+///
+/// # Errors
+/// As the line of a motion.
+pub fn end_compensation(control: &mut Control) -> Result<()> {
+    let z = control.tables.axis(2).letter;
+    let Some(at) = control.last_value(z).filter(|_| !control.klartext.at_feed) else {
+        return Ok(());
+    };
+    let waiting = control.block.take();
+    control.word(z, at)?;
+    write_rapid(control)?;
+    control.block = waiting;
+    Ok(())
+}
+
 fn write_rapid(control: &mut Control) -> Result<()> {
     control.klartext.phrase.head = Head::Line;
     control.klartext.phrase.rapid = true;
@@ -280,19 +297,6 @@ pub(super) fn write(control: &mut Control, turning: AxisSet) -> Result<()> {
     }
     if in_plane && control.state.compensates() {
         control.state.moved_in_plane();
-    }
-    Ok(())
-}
-
-/// Refuses what follows while a CUTCOM waits for a motion: R0, RL and RR stand in lines
-/// that move.
-///
-/// # Errors
-/// One waits.
-pub fn refuse_unbegun(control: &Control) -> Result<()> {
-    if control.waiting.has(Function::Compensation) {
-        return PostCode::Family
-            .err("CUTCOM without a move after it: R0, RL and RR are output in the line of a move");
     }
     Ok(())
 }

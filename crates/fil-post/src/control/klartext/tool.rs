@@ -32,8 +32,9 @@ pub fn take_own_offset(control: &mut Control, wanted: &mut ToolChange) -> Result
 /// Calls a tool; its length and radius come from the control's table of tools.
 ///
 /// # Errors
-/// A number that does not fit.
+/// Cutter compensation; a number that does not fit.
 pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
+    control.ready_for(Act::ToolCall)?;
     let number = number(control, wanted.tool)?;
     let mut line = Line::default();
     line.item(TEXT, "TOOL CALL", control.block.cause.whole());
@@ -91,7 +92,7 @@ pub fn select(control: &mut Control, tool: i64) -> Result<()> {
 /// # Errors
 /// Cutter compensation; a speed that does not fit.
 pub fn speed(control: &mut Control, value: f64) -> Result<()> {
-    control.require(Act::ToolCall)?;
+    control.ready_for(Act::ToolCall)?;
     let (written, text) = scaled_speed(control, value)?;
     if control.has_value(letters::S, written) {
         return Ok(());

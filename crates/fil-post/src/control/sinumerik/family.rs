@@ -116,6 +116,14 @@ impl Family for Sinumerik {
         tool::edge_of(wanted)
     }
 
+    fn take_own_offset(&self, control: &mut Control, wanted: &mut ToolChange) -> Result<()> {
+        tool::take_own_offset(control, wanted)
+    }
+
+    fn change_offset(&self, control: &mut Control, change: ToolChange) -> Result<()> {
+        tool::change_edge(control, change)
+    }
+
     fn change_tool(&self, control: &mut Control, change: ToolChange) -> Result<()> {
         tool::change(control, change)
     }

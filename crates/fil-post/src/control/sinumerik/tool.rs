@@ -13,14 +13,13 @@ use crate::operation::{OffsetFrom, ToolChange};
 /// The highest number of a cutting edge.
 const EDGES: i64 = 9;
 
-/// Changes the tool and takes its cutting edge: that of OSETNO or of its compensation, else the
-/// first. With `control.tool_offsets`, OSETNO is an offset of the machine and no edge. Length and
-/// radius come from the control's table with it.
+/// Leaves out what is no cutting edge of a tool, where the machine wants that: its first edge counts.
+/// With `control.tool_offsets`, OSETNO is an offset of the machine and no edge.
 ///
 /// # Errors
-/// A tool that does not fit; an edge that no tool has.
-pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
-    let mut edge = edge_of(&wanted);
+/// An edge that no tool has.
+pub fn take_own_offset(control: &mut Control, wanted: &mut ToolChange) -> Result<()> {
+    let edge = edge_of(wanted);
     let is_of_machine = wanted.offset_from == OffsetFrom::Record;
     if !(1..=EDGES).contains(&edge) || edge > 1 && is_of_machine && own_offsets::of_tool(control) {
         let message = format!(
@@ -28,16 +27,41 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
              tool"
         );
         own_offsets::leave_out(control, Some(wanted.tool), edge as f64, &message)?;
-        edge = 1;
+        wanted.offset = 1;
     }
+    Ok(())
+}
+
+/// Changes the tool and takes its cutting edge: that of OSETNO or of its compensation, else the
+/// first. Length and radius come from the control's table with it.
+///
+/// # Errors
+/// A tool that does not fit.
+pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     words::tool_blocks(control, wanted.tool)?;
     words::restate(control);
+    take_edge(control, &wanted)?;
+    control.state.has_tool(Some(wanted.tool));
+    Ok(())
+}
+
+/// Takes another cutting edge of the tool in the spindle.
+///
+/// # Errors
+/// A number that does not fit.
+pub fn change_edge(control: &mut Control, wanted: ToolChange) -> Result<()> {
+    take_edge(control, &wanted)?;
+    words::counts_from_another_tip(control);
+    Ok(())
+}
+
+fn take_edge(control: &mut Control, wanted: &ToolChange) -> Result<()> {
+    let edge = edge_of(wanted);
     control.because(wanted.causes[1], |control| {
         control.word(D, edge as f64)?;
         control.write_block()
     })?;
     control.state.doubt_axes();
-    control.state.has_tool(Some(wanted.tool));
     control.state.set(modal::TOOL_OFFSET, edge);
     control.sinumerik.edge = Some(edge);
     control.state.calls_length(true);

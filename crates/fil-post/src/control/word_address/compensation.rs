@@ -9,7 +9,8 @@ use fil_machine::modes::Plane;
 use super::modes;
 use crate::control::length_plane::usual_plane;
 use crate::control::{Control, Function, length_plane};
-use crate::control_state::{Compensation, modal};
+use crate::control_state::modal::{self, Know};
+use crate::control_state::{Compensation, Length, Source};
 use crate::errors::PostCode;
 use crate::operation::CutterCompensation;
 
@@ -130,6 +131,27 @@ fn unlike_tool(control: &Control, given: Option<(f64, u16)>) -> Option<(f64, u16
     Some(wanted).filter(|_| !(is_lathe && of_tool))
 }
 
+/// The tool in the spindle: behind an author's block that may have changed it that of LOADTL.
+///
+/// # Errors
+/// The doubt of that, by its level.
+fn tool_in_spindle(control: &mut Control) -> Result<Option<i64>> {
+    // A change that can be read leaves none to guess.
+    let is_changed = control.state.length() == Length::OfAnotherTool
+        || control.state.get(modal::NAMED_TOOL).is_some();
+    let loaded = control.tools.loaded.filter(|_| !is_changed);
+    match (control.state.groups().know(modal::TOOL), loaded) {
+        (Know::Unknown(Source::Author), Some(tool)) => {
+            let diag = PostCode::AuthorChange.diag(format!(
+                "a foreign block may have changed tool {tool}, whose offset CUTCOM takes"
+            ));
+            control.doubt(Source::Author, diag, "taken to be that tool")?;
+            Ok(loaded)
+        }
+        (known, _) => Ok(known.value()),
+    }
+}
+
 /// Adds the offset: that of the record, else the number of the tool.
 fn offset_word(control: &mut Control, given: Option<(f64, u16)>) -> Result<()> {
     if control.commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode {
@@ -137,7 +159,10 @@ fn offset_word(control: &mut Control, given: Option<(f64, u16)>) -> Result<()> {
     }
     let from_tool = control.commons.read(loc::TOOL_DIAMETER_FROM_TOOL);
     let given = if from_tool { given } else { unlike_tool(control, given) };
-    let of_tool = control.state.get(modal::TOOL).filter(|_| from_tool).map(|tool| (tool as f64, 0));
+    let of_tool = match given {
+        None if from_tool => tool_in_spindle(control)?.map(|tool| (tool as f64, 0)),
+        _ => None,
+    };
     let Some((offset, word)) = given.or(of_tool) else {
         if from_tool {
             let message = "CUTCOM: no offset number, and the tool in the spindle is not known";

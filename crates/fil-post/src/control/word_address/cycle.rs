@@ -251,6 +251,10 @@ fn rigid_mode(control: &mut Control, cycle: &Cycle) -> Result<()> {
             .err("a rigid tap needs the turns of the spindle, and no SPINDL gave them");
     };
     let speed = spindle::value_of(control, asked);
+    // Said once more it would be an alarm, as would a motion behind an author's.
+    if control.spindle.in_step == Some((control.tape.count, speed)) {
+        return Ok(());
+    }
     let waiting = control.block.take();
     control.m(mode);
     control.word(S, speed)?;

@@ -105,6 +105,10 @@ impl Family for WordAddress {
         cycle::leave_by_code(control)
     }
 
+    fn change_offset(&self, control: &mut Control, change: ToolChange) -> Result<()> {
+        tool::change_offset(control, change)
+    }
+
     fn change_tool(&self, control: &mut Control, change: ToolChange) -> Result<()> {
         tool::change(control, change)
     }

@@ -367,7 +367,9 @@ const READ_OVER: u64 = 1;
 #[cold]
 fn warn_of_still_blocks(control: &mut Control) {
     let state = &control.state;
-    let begun = state.compensates() && state.is(modal::CUTTER_PATH, CutterPath::Moved);
+    // Behind CUTCOM/OFF no corner is left that the control would have to see.
+    let goes_on = control.compensation_asked() != Compensation::Off;
+    let begun = goes_on && state.compensates() && state.is(modal::CUTTER_PATH, CutterPath::Moved);
     let between = control.tape.count.saturating_sub(control.moved_in_plane_behind);
     if begun && between > READ_OVER && control.can().plain_words {
         let message = format!("{between} blocks before this motion within cutter compensation");
@@ -396,7 +398,7 @@ fn length_offset_words(control: &mut Control) -> Result<()> {
     if !control.block_has(control.tables.axis(2).letter) {
         return Ok(());
     }
-    if let Some((offset, cause)) = control.waiting.length_offset.take() {
+    if let Some((offset, cause)) = control.take_length()? {
         modes::before_length(control)?;
         let code = control.code(loc::TOOL_LENGTH_CODE, "tool length offset")?;
         control.tip.length_is_called = true;

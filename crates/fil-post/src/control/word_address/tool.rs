@@ -16,12 +16,22 @@ use crate::errors::PostCode;
 use crate::operation::ToolChange;
 use crate::operation::motion::Motion;
 
-/// Ends what a tool change must not interrupt; says whether the tool is to be
-/// changed at all.
+/// What a LOADTL changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Changes {
+    /// The tool.
+    Tool,
+    /// The offset alone: another tip of the tool in the spindle.
+    Offset,
+    /// Nothing.
+    Nothing,
+}
+
+/// Ends what a tool change must not interrupt; says what is to be changed.
 ///
 /// # Errors
 /// Cutter compensation that is still on; a station that the turret lacks.
-pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
+pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<Changes> {
     check_station(control, wanted.tool)?;
     control.begin()?;
     super::cycle::cancel(control)?;
@@ -31,9 +41,12 @@ pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
     modes::before_length(control)?;
     let modal = control.commons.read(loc::TOOL_MODAL);
     let offset = control.family().offset_of(wanted);
-    let stays =
-        control.state.is(modal::TOOL, wanted.tool) && control.state.is(modal::TOOL_OFFSET, offset);
-    Ok(!modal || !stays)
+    let stays = control.state.is(modal::TOOL, wanted.tool) && !wanted.by_hand;
+    Ok(match control.state.get(modal::TOOL_OFFSET).filter(|_| stays) {
+        Some(before) if before != offset => Changes::Offset,
+        Some(_) if modal => Changes::Nothing,
+        _ => Changes::Tool,
+    })
 }
 
 /// Refuses a tool that no station of the turret holds.
@@ -71,6 +84,34 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     control.state.length_of_new_tool(one_word);
     control.state.set(modal::TOOL_OFFSET, wanted.offset);
     Ok(())
+}
+
+/// Takes another offset for the tool in the spindle: another of its tips makes the next motions.
+///
+/// # Errors
+/// As [`change`].
+pub fn change_offset(control: &mut Control, wanted: ToolChange) -> Result<()> {
+    let before = control.state.get(modal::MOTION);
+    let one_word = control.commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode;
+    control.because(wanted.causes[1], |control| match one_word {
+        true => tool_and_offset(control, wanted),
+        false => length_offset(control, wanted, before),
+    })?;
+    if one_word || control.code_if_any(loc::TOOL_LENGTH_CODE).is_some() {
+        counts_from_another_tip(control);
+    }
+    control.state.length_of_new_tool(one_word);
+    control.state.set(modal::TOOL_OFFSET, wanted.offset);
+    Ok(())
+}
+
+/// The machine stands where it stood, and counts from another tip of its tool: along Z on a mill.
+pub(in crate::control) fn counts_from_another_tip(control: &mut Control) {
+    let axes = if control.commons.read(loc::LATHE_DIAMETER) { AxisSet::LINEAR } else { AxisSet::Z };
+    for number in axes.and(control.tables.present()).numbers() {
+        let letter = control.tables.axis(number).letter;
+        control.state.shifts(letter, Source::Post);
+    }
 }
 
 /// Names the next tool, on a machine that prepares it.
