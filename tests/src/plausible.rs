@@ -1,6 +1,8 @@
 //! Parts as shops post them: each is right work for each machine that has its functions, so that a
 //! refusal, a warning and a finding of verify are each counted as what they cost.
 
+pub mod busy;
+
 use std::fmt::Write;
 
 use crate::programs::Dice;
@@ -25,6 +27,34 @@ pub const MILLS: &[&str] = &[
 /// Lathes that parts are posted for.
 pub const LATHES: &[&str] =
     &["fanuc-lathe", "haas-lathe", "okuma-lathe", "sinumerik-lathe", "linuxcnc-lathe"];
+
+/// The other ready posts for mills, with rotary axes and for hobby controls among them.
+pub const MORE_MILLS: &[&str] = &[
+    "centroid-mill",
+    "fanuc-5x-head",
+    "fanuc-5x-tables",
+    "fanuc-mill-a",
+    "fanuc-mill-b",
+    "fluidnc",
+    "grbl",
+    "haas-mill-a",
+    "haas-trunnion",
+    "haas-trunnion-tcpc",
+    "heidenhain-5x",
+    "hurco-mill",
+    "linuxcnc-5x",
+    "masso-mill",
+    "mazak-5x",
+    "robodrill-5x",
+    "robodrill-a",
+    "sinumerik-5x",
+    "syntec-mill",
+    "uccnc-mill",
+];
+
+/// The other ready posts for lathes, those with live tools among them.
+pub const MORE_LATHES: &[&str] =
+    &["dn-mill-turn", "fanuc-mill-turn", "haas-lathe-y", "sinumerik-mill-turn"];
 
 /// The CL text of a part under construction.
 struct Part {
@@ -320,5 +350,21 @@ impl Part {
             "THREAD / AUTO, {x}, 0, {from}, TO, {x}, 0, {to}, {unit}, {lead}, DEEP, {first}, TYPE, 0, \
              {height}, 60, FEDTO, {height}, OUT, TIMES, 1"
         ));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn each_ready_post_is_a_mill_or_a_lathe() {
+        let listed: Vec<&str> =
+            [MILLS, MORE_MILLS, LATHES, MORE_LATHES].into_iter().flatten().copied().collect();
+        let posts: BTreeSet<&str> = filpost::ready::READY.iter().map(|post| post.name).collect();
+        assert_eq!(listed.len(), posts.len());
+        assert_eq!(listed.into_iter().collect::<BTreeSet<_>>(), posts);
     }
 }
