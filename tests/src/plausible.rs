@@ -43,6 +43,7 @@ pub const MORE_MILLS: &[&str] = &[
     "heidenhain-5x",
     "hurco-mill",
     "linuxcnc-5x",
+    "marlin-mill",
     "masso-mill",
     "mazak-5x",
     "robodrill-5x",
