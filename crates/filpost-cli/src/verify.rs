@@ -237,7 +237,9 @@ fn conclusion(args: &VerifyArgs, report: &Report, reference: Reference) -> Strin
             format!("{nc} does what a second run of the post makes of {cl}")
         }
         (Verdict::Partly, Reference::SecondRun) if report.compared == 0 => {
-            return format!("{nc} reads as a second run of the post does, and its path is not known");
+            return format!(
+                "{nc} reads as a second run of the post does, and its path is not known"
+            );
         }
         (Verdict::Partly, Reference::ClFile) if report.compared == 0 => {
             return format!("nothing of {nc} could be compared with {cl}");

@@ -88,7 +88,7 @@ fn data(drawing: &Drawing<'_>, extent: Option<Extent>, out: &mut dyn Write) -> i
     ];
     out.write_all(b"{")?;
     for (name, value) in fields {
-        write!(out, "\"{name}\":{value},\n")?;
+        writeln!(out, "\"{name}\":{value},")?;
     }
     out.write_all(b"\"path\":")?;
     pack::trace(&drawing.path, notes, source, &grid, out)?;

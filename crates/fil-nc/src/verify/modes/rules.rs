@@ -206,8 +206,12 @@ fn said_of_speed(speed: Speed) -> String {
 
 pub(super) fn said_of_offset(found: Option<u32>, must: Option<u32>) -> String {
     match (found, must) {
-        (Some(found), Some(must)) => format!("length offset {found} is active, it should be {must}"),
-        (Some(found), None) => format!("length offset {found} is active, the CL file asks for none"),
+        (Some(found), Some(must)) => {
+            format!("length offset {found} is active, it should be {must}")
+        }
+        (Some(found), None) => {
+            format!("length offset {found} is active, the CL file asks for none")
+        }
         (None, Some(must)) => format!("no length offset is active, it should be {must}"),
         (None, None) => String::new(),
     }
