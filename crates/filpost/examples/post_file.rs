@@ -35,8 +35,8 @@ fn main() -> ExitCode {
 
 fn post(cl: &Path, nc: &Path, with: &str) -> Result<(), Error> {
     let name = std::env::var("FILPOST_POST").unwrap_or_else(|_| "linuxcnc-mill".to_string());
-    let builder = Program::builder().generic(&name);
-    let build = || builder.clone().build();
+    let builder = || Program::builder().generic(&name);
+    let build = || builder().build();
     match (with, with.parse::<u32>()) {
         ("map", _) => map(&build()?, cl, nc),
         ("listing", _) => listing(&build()?, cl, nc),
@@ -47,7 +47,7 @@ fn post(cl: &Path, nc: &Path, with: &str) -> Result<(), Error> {
         }
         (fil, Err(_)) => {
             let text = files::read_text(Path::new(fil), None)?;
-            builder.fil(fil, &text).build()?.post_files(cl, nc).map(|_| ())
+            builder().fil(fil, &text).build()?.post_files(cl, nc).map(|_| ())
         }
     }
 }

@@ -129,7 +129,7 @@ mod tests {
             spelled.extend_from_slice(part);
             Ok(())
         };
-        spell(text, &trace, &grid, &mut take).expect("a vector takes all");
+        super::spell(text, &trace, &grid, &mut take).expect("a vector takes all");
         String::from_utf8(spelled).expect("a text")
     }
 

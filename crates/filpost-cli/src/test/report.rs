@@ -95,11 +95,12 @@ fn failure(done: &Done) -> Markup {
 /// as motion of the case's machine.
 fn plot(done: &Done) -> Option<Markup> {
     let program = done.case.program().ok()?;
-    let path = |name: &'static str, text: &str| {
-        plot::program(Text { name, bytes: text.as_bytes() }, program.commons()).ok()
-    };
-    let mut drawing = path("this run", done.outcome.nc.as_deref()?)?;
-    drawing.under = path("proven", done.outcome.wanted.as_deref()?).map(|proven| proven.path);
+    let [found, proven] = [&done.outcome.nc, &done.outcome.wanted];
+    let text = |name, text| Text { name, bytes: str::as_bytes(text) };
+    let found = text("this run", found.as_deref()?);
+    let proven = text("proven", proven.as_deref()?);
+    let mut drawing = plot::program(found, program.commons()).ok()?;
+    drawing.under = plot::program(proven, program.commons()).ok().map(|proven| proven.path);
     drawing.under_name = "proven program";
     Some(PreEscaped(svg(&drawing, &[View::Xy, View::Zx, View::Isometric])))
 }
