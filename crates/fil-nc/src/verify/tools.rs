@@ -102,6 +102,7 @@ impl<C: Steps> Verifier<'_, C> {
         if by_hand || self.settings.switches_off_at_change() {
             self.expected.resume_coolant(self.settings);
         }
+        self.allow_spindle_mode_again();
         self.go_to_offset_level(cl_line);
         self.take_blocks_after_change();
     }

@@ -19,4 +19,13 @@ impl<C: Steps> Verifier<'_, C> {
             self.ask_auxiliary(cl_line, code);
         }
     }
+
+    /// Behind a tool change the program may say once more that the main spindle is the axis C, so
+    /// that it can be begun there.
+    pub(super) fn allow_spindle_mode_again(&mut self) {
+        if let Some(code) = self.settings.spindle_mode_code(true).filter(|_| self.expected.mills()) {
+            let lines = self.lines_here();
+            self.auxiliaries.allow(code, lines);
+        }
+    }
 }

@@ -54,21 +54,8 @@ pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
     if spindle::may_turn(control) {
         control.family().write(control, Operation::Spindle(Spindle::Off))?;
     }
-    let (mode, at) = match mills {
-        true => (MillTurnMode::Milling, loc::MILL_TURN_MILLING_CODE),
-        false => (MillTurnMode::Turning, loc::MILL_TURN_TURNING_CODE),
-    };
-    let code = control.code(at, "this mode of the main spindle")?;
-    // The M code is that of the master spindle, which is the main one for both.
-    if !mills {
-        transformation::choose_master(control, false)?;
-    }
-    control.m(code);
-    control.write_block()?;
-    if mills {
-        transformation::choose_master(control, true)?;
-    }
-    set_mode(control, mode)?;
+    say_mode(control, mills)?;
+    set_mode(control, if mills { MillTurnMode::Milling } else { MillTurnMode::Turning })?;
     if control.tables.transforms && !mills {
         modes::plane_of_turning(control)?;
     }
@@ -80,6 +67,37 @@ pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
     post.path.feed = None;
     post.path.rotary = None;
     post.path.interrupt();
+    Ok(())
+}
+
+/// Writes once more which spindle turns while the main one is the axis C, so that the program can be begun here.
+///
+/// # Errors
+/// As a block on the tape.
+pub(super) fn say_milling_again(control: &mut Control) -> Result<()> {
+    // Where the live tool is the master spindle, the M code would be its own.
+    match control.commons.int_opt(loc::MILL_TURN_LIVE_SPINDLE) {
+        Some(_) => transformation::choose_master(control, true),
+        None => say_mode(control, true),
+    }
+}
+
+/// Writes that the main spindle is the axis C, or turns again.
+///
+/// # Errors
+/// The machine has no code for it.
+fn say_mode(control: &mut Control, mills: bool) -> Result<()> {
+    let at = if mills { loc::MILL_TURN_MILLING_CODE } else { loc::MILL_TURN_TURNING_CODE };
+    let code = control.code(at, "this mode of the main spindle")?;
+    // The M code is that of the master spindle, which is the main one for both.
+    if !mills {
+        transformation::choose_master(control, false)?;
+    }
+    control.m(code);
+    control.write_block()?;
+    if mills {
+        transformation::choose_master(control, true)?;
+    }
     Ok(())
 }
 

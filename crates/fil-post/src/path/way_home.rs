@@ -7,7 +7,7 @@ use fil_machine::locations::{self as loc, ProgramEndBlock, ToolChangeStop};
 use fil_machine::setting::CodeAt;
 use fil_machine::user_blocks::{self, Around};
 
-use super::{height, machine_position};
+use super::{height, machine_position, mill_turn};
 use crate::control::machine_frame::Before;
 use crate::control::word_address::{coolant, cycle, fixture, spindle};
 use crate::control::{Control, Held, family, program, user_texts};
@@ -125,22 +125,27 @@ pub(crate) fn write_held(control: &mut Control) -> Result<()> {
     Ok(())
 }
 
-/// Restates modes and work offset after a tool change, so that the program can be begun there. An
+/// Restates modes, work offset, the axis C and the highest speed after a tool change, so that the program can be begun there. An
 /// offset that a block of the author has chosen stays.
 ///
 /// # Errors
 /// A work offset that the machine lacks.
 pub(super) fn restate(control: &mut Control) -> Result<()> {
-    if control.commons.read(loc::TOOL_CHANGE_MODES) {
+    let says_modes = control.commons.read(loc::TOOL_CHANGE_MODES);
+    if says_modes {
         program::say_modes_again(control)?;
     }
-    if control.commons.int_opt(loc::FIXTURE_FIRST).is_none() {
-        return Ok(());
+    if control.commons.int_opt(loc::FIXTURE_FIRST).is_some() {
+        match (offset_of_author(control), work_offset_in_force(control)) {
+            (Some(offset), _) => fixture::restate(control, offset)?,
+            (None, Some(number)) => write_work_offset(control, number)?,
+            (None, None) => {}
+        }
     }
-    match (offset_of_author(control), work_offset_in_force(control)) {
-        (Some(offset), _) => fixture::restate(control, offset),
-        (None, Some(number)) => write_work_offset(control, number),
-        (None, None) => Ok(()),
+    match says_modes {
+        true if control.tables.mills() => mill_turn::say_milling_again(control),
+        true => spindle::say_limit_again(control),
+        false => Ok(()),
     }
 }
 

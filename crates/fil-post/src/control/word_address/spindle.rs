@@ -121,6 +121,17 @@ fn limit_block(control: &mut Control, limit: f64) -> Result<()> {
     control.write_block()
 }
 
+/// Says the highest speed in force once more, so that the program can be begun here. Where it is a
+/// word beside the surface speed, each surface speed brings it along.
+///
+/// # Errors
+/// As a block on the tape.
+pub fn say_limit_again(control: &mut Control) -> Result<()> {
+    let is_beside = control.commons.read(loc::SPINDLE_MAX_ADDRESS).is_some();
+    let limit = control.state.get(modal::SPEED_LIMIT).filter(|_| is_main(control) && !is_beside);
+    limit.map_or(Ok(()), |limit| limit_block(control, limit))
+}
+
 /// A surface speed that is in force is said again, as the highest speed is a word beside it;
 /// another one brings it along.
 fn limit_beside_surface_speed(control: &mut Control) -> Result<()> {
