@@ -49,10 +49,10 @@ fn rounded(value: f64, decimals: u8) -> Option<(u64, u32)> {
         return None;
     }
     let scaled = u128::from(mantissa) * u128::from(scale);
-    let (floor, rest, half) =
-        ((scaled >> halved) as u64, scaled & ((1 << halved) - 1), 1 << (halved - 1));
+    let floor = u64::try_from(scaled >> halved).ok()?;
+    let (rest, half) = (scaled & ((1 << halved) - 1), 1 << (halved - 1));
     let up = rest > half || rest == half && floor % 2 == 1;
-    let scaled = floor + u64::from(up);
+    let scaled = floor.checked_add(u64::from(up))?;
     Some((scaled / u64::from(scale), (scaled % u64::from(scale)) as u32))
 }
 
