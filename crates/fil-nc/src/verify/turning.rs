@@ -23,7 +23,8 @@ impl<C: Steps> Verifier<'_, C> {
     /// Behind a tool change the program may say once more that the main spindle is the axis C, so
     /// that it can be begun there.
     pub(super) fn allow_spindle_mode_again(&mut self) {
-        if let Some(code) = self.settings.spindle_mode_code(true).filter(|_| self.expected.mills()) {
+        if let Some(code) = self.settings.spindle_mode_code(true).filter(|_| self.expected.mills())
+        {
             let lines = self.lines_here();
             self.auxiliaries.allow(code, lines);
         }

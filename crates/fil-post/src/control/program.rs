@@ -123,7 +123,7 @@ fn write_start(control: &mut Control) -> Result<()> {
     let unit = control.unit.filter(|_| safe_start || !(own_start && of_both));
     control.state = state_at_start(&control.commons, unit);
     if control.family().start(control, &blocks)? {
-        return Ok(());
+        return if safe_start { end_planes(control) } else { Ok(()) };
     }
     tape_mark(control, loc::TAPE_START_CODE)?;
     leader(control, loc::TAPE_LEADER)?;
@@ -141,6 +141,9 @@ fn write_start(control: &mut Control) -> Result<()> {
             mode_codes(control)
         }
         control.write_block()?;
+        if safe_start {
+            end_planes(control)?;
+        }
     }
     let at_start = Modes::of(control);
     let says_no_modes = own_start && !safe_start;
@@ -301,6 +304,21 @@ fn safe_start_blocks(control: &mut Control) -> Result<()> {
     }
     say_diameters(control);
     Ok(())
+}
+
+/// Ends what an interrupted program may have left active of tool center point control, where G49 does
+/// not end it, and of a tilted work plane.
+///
+/// # Errors
+/// As a block on the tape.
+pub fn end_planes(control: &mut Control) -> Result<()> {
+    if control.tables.tip_output && !control.can().length_functions {
+        control.family().end_tip_control(control)?;
+    }
+    match control.tables.frame_output {
+        true => control.family().end_frame(control),
+        false => Ok(()),
+    }
 }
 
 /// Restates plane, coordinates and feed mode, so that the program can be begun here.

@@ -132,6 +132,9 @@ pub(crate) fn write_held(control: &mut Control) -> Result<()> {
 /// A work offset that the machine lacks.
 pub(super) fn restate(control: &mut Control) -> Result<()> {
     let says_modes = control.commons.read(loc::TOOL_CHANGE_MODES);
+    if control.commons.read(loc::PROGRAM_SAFE_START) {
+        program::end_planes(control)?;
+    }
     if says_modes {
         program::say_modes_again(control)?;
     }

@@ -17,6 +17,11 @@ pub fn write(control: &mut Control, coolant: Coolant) -> Result<()> {
         Coolant::Off => return off(control),
         Coolant::On(kind, pressure) => of_the_machine(control, kind, pressure),
     };
+    if control.code_if_any(at).is_none() {
+        // What flows goes on: the tool must not run dry.
+        control.warn_no_code("this coolant");
+        return Ok(());
+    }
     let before = control.coolant.filter(|before| *before != at);
     let ends = before.is_some_and(|before| {
         let [before, now] = [before, at].map(|at| off_code(control, Some(at)));
