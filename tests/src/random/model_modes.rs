@@ -176,7 +176,15 @@ impl Model<'_> {
         {
             return;
         }
-        self.push(Act::Tool(tool));
+        // Another offset of the tool in the spindle is no change of it, but for a T word that has both.
+        let before = self.tool_offset.filter(|_| self.tool == Some(tool));
+        let is_tip = before.is_some_and(|before| before != offset.unwrap_or(tool));
+        if is_tip {
+            self.may_refuse("another tip of the tool in its cut");
+        }
+        if !is_tip || self.setup.runs_on_our_lathe() {
+            self.push(Act::Tool(tool));
+        }
         if !self.is_skipped() {
             self.tool = Some(tool);
             self.tool_offset = Some(offset.unwrap_or(tool));
