@@ -419,8 +419,8 @@ impl<'r> Reader<'r> {
     }
 
     /// Makes the record of a text statement; `from` is where the text begins in it. Control
-    /// characters stay: whoever writes the text must refuse them, and a comment that is written
-    /// nowhere may have them.
+    /// characters stay: the writer of the program refuses them, and a comment that is not output
+    /// may have them.
     fn take_text(&mut self, record: &mut Record, major: crate::WordId, from: usize) -> Result<()> {
         self.major = Some(major);
         self.refuse_bytes(is_nul)?;

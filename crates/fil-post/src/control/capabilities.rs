@@ -18,8 +18,8 @@ pub struct Capabilities {
     pub length_functions: bool,
     /// D chooses a cutting edge with its length and radius.
     pub cutting_edges: bool,
-    /// The codes of cutter compensation stand in lines that move: what ends it comes with the next
-    /// line, whoever makes that.
+    /// Only a line with a move can begin or end cutter compensation: R0 is output in the next such
+    /// line, also in one that the CL file does not ask for.
     pub compensation_in_moves: bool,
     /// A statement calls a cycle at each position (MCALL), and another ends it.
     pub cycle_calls: bool,

@@ -70,7 +70,8 @@ pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
     Ok(())
 }
 
-/// Writes once more which spindle turns while the main one is the axis C, so that the program can be begun here.
+/// Writes once more which spindle turns while the main one is the axis C, so that the program can
+/// be begun here.
 ///
 /// # Errors
 /// As a block on the tape.

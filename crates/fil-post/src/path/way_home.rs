@@ -125,8 +125,8 @@ pub(crate) fn write_held(control: &mut Control) -> Result<()> {
     Ok(())
 }
 
-/// Restates modes, work offset, the axis C and the highest speed after a tool change, so that the program can be begun there. An
-/// offset that a block of the author has chosen stays.
+/// Restates modes, work offset, the axis C and the highest speed after a tool change, so that the
+/// program can be begun there. A work offset that a block of the author has chosen stays.
 ///
 /// # Errors
 /// A work offset that the machine lacks.
