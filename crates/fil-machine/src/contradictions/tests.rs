@@ -132,6 +132,7 @@ fn contradictions_are_found() {
         "cycle.tap_left_code=81",
         "program.opstop_code=99",
         "rapid.code_xy=99",
+        "rapid.address=F\nrapid.value=3000\nrapid.repeat_feed=0",
         "dwell.cycle_drill=-0.001",
         "scale.x=0.000001",
         "cycle.dwell_address=R",
